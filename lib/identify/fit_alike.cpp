@@ -103,7 +103,7 @@ std::vector<int> repeated_logs(Identification& id) {
       repeated.push_back(static_cast<int>(i));
       id.logs[i].left_out = true;
       id.issues.add(make_issue(fmt::format("repeated_log_{}", i + 1), Severity::warning,
-                               fmt::format("{} is {} once more, byte for byte; it was left out",
+                               fmt::format("{} is identical to {}, byte for byte; it was left out",
                                            id.logs[i].path, id.logs[k].path)));
       break;
     }
@@ -128,14 +128,13 @@ void tell_spread(const ModelChoice& choice, Identification& id) {
 void name_odd_logs(const std::vector<int>& odd, bool kept, Identification& id) {
   for (const int log : odd) {
     id.logs[log].left_out = !kept;
-    id.issues.add(
-        make_issue(fmt::format("odd_log_{}", log + 1), Severity::warning,
-                   fmt::format("{} disagrees with the other logs: a fit to them leaves far more of its "
-                               "torque unexplained than of theirs; {}",
-                               id.logs[log].path,
-                               kept ? "it was kept as asked"
-                                    : "it was left out (--keep-all keeps it). Is it another robot, another "
-                                      "load, or a fault?")));
+    id.issues.add(make_issue(fmt::format("odd_log_{}", log + 1), Severity::warning,
+                             fmt::format("{} disagrees with the other logs: a fit to the others has a far "
+                                         "larger torque residual in this log; {}",
+                                         id.logs[log].path,
+                                         kept ? "it was kept, as --keep-all demands"
+                                              : "it was left out (--keep-all keeps it). Check whether it "
+                                                "shows another robot, another load, or a fault")));
   }
 }
 
@@ -158,11 +157,11 @@ void question_columns(std::span<LogSource* const> logs, const std::vector<int>& 
   id.reason += fmt::format("; it looks as if {}", found.what);
   id.issues.add(
       make_issue("misread_columns", Severity::severe,
-                 fmt::format("it looks as if {}: then the robot explains at least {:.1f} % of every joint's "
-                             "torque, as the logs are read now {}; {}",
+                 fmt::format("it looks as if {}: with that interpretation the robot explains at least {:.1f} "
+                             "% of every joint's torque, with the present one {}; {}",
                              found.what, 100.0 * found.r2_after,
                              found.r2_before > 0.0 ? fmt::format("{:.1f} %", 100.0 * found.r2_before)
-                                                   : std::string("it does not"),
+                                                   : std::string("none of it"),
                              found.cure)));
 }
 
@@ -190,8 +189,8 @@ void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, T
                                100.0 * std::max(worst, 0.0))));
   } else if (options.method == IdentifyMethod::automatic && gives_way(id.space, torque)) {
     id.issues.add(make_issue("gear_compliance", Severity::note,
-                             "a gear gives way: values and intervals come from the momentum balance, the "
-                             "motion of rigid gears was not fitted"));
+                             "a gear is elastic: values and intervals come from the momentum balance, the "
+                             "motion with rigid gears was not fitted"));
   } else if (options.method != IdentifyMethod::weak_form && moves) {
     TorqueFit start = torque;
     for (int j = 0; j < id.space.joints(); ++j)
@@ -252,11 +251,10 @@ ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, con
   draft.choice.weak.shift = draft.torque.shift;
   settle_terms(id.space, draft);
   if (!draft.torque.not_a_robot.empty())
-    id.issues.add(
-        make_issue("infeasible", Severity::warning,
-                   draft.torque.not_a_robot +
-                       "; the nearest feasible robot was taken instead: these logs do not determine "
-                       "values next to that bound"));
+    id.issues.add(make_issue("infeasible", Severity::warning,
+                             draft.torque.not_a_robot +
+                                 ", which is infeasible; the nearest feasible robot was used instead: "
+                                 "these logs do not determine values next to that bound"));
   return draft;
 }
 
@@ -270,11 +268,10 @@ void tell_drives(const Gathered& gathered, const Eigen::VectorXd& parameters, Id
       if (gathered.torque_gain[j] == 1.0) continue;
       id.issues.add(make_issue(
           fmt::format("torque_gain_{}", j + 1), Severity::warning,
-          fmt::format(
-              "the torque of joint {} is {:.3f} times what its column says, by the masses that it shares "
-              "with the joints before: is its unit, torque constant or gear ratio another? The "
-              "identified robot reads it so (torque_gain)",
-              j + 1, gathered.torque_gain[j])));
+          fmt::format("the torque of joint {} is {:.3f} times the value in its column, according to the "
+                      "masses that it shares with the joints before: check its unit, torque constant and "
+                      "gear ratio. The identified robot applies this factor (torque_gain)",
+                      j + 1, gathered.torque_gain[j])));
     }
   }
   id.robot.gear_compliance.clear();
@@ -314,7 +311,7 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   list_base_parameters(torque.fit, {torque.wanted, still, undriven, leaning, has_fast_log(id)}, id);
   if (id.issues.find("infeasible") != nullptr && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
-    id.reason += "; what fits best is no robot that can be";
+    id.reason += "; the best fit is infeasible: no real robot has these parameters";
   }
   if (!all_told(id) && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;

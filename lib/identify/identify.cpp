@@ -40,10 +40,11 @@ bool depends_on_lengths(const ParameterSpace& a, const ParameterSpace& b) {
 void add_contradiction(double ratio, Identification& id) {
   id.issues.add(make_issue(
       "lengths_contradict", Severity::warning,
-      fmt::format("no masses of the links fit the base parameters at these lengths: they are {:.0f} standard "
-                  "errors off, and the intervals of m and l are wider by as much. Is a length wrong, a rotor "
-                  "not stated (rotor_inertia), a link no rod or point mass?",
-                  ratio)));
+      fmt::format(
+          "no masses of the links fit the base parameters at these lengths: they deviate by {:.0f} standard "
+          "errors, and the intervals of m and l are wider by this factor. Check whether a length is wrong, a "
+          "rotor is not stated (rotor_inertia), or a link is neither rod nor point mass",
+          ratio)));
 }
 
 bool differ(const PhysicalFit& physical, const std::vector<double>& used) {
@@ -57,8 +58,8 @@ void add_guess(const PhysicalFit& physical, Identification& id) {
   id.issues.add(make_issue(
       "lengths_guessed", Severity::note,
       fmt::format(
-          "the logs do not tell {}; what positive masses make likely is taken for where the tip and a tool "
-          "on it are: state it under [known] where that matters",
+          "the logs do not determine {}; the position of the tip and of a tool on it assumes the values that "
+          "positive masses make likely: state them under [known] if that position matters",
           fmt::join(physical.guessed_lengths, ", "))));
 }
 

@@ -31,16 +31,16 @@ std::vector<int> still_for(const Identification& id, int p, const std::vector<in
 
 std::string why_offset(const Identification& id, int p, const TableFacts& facts) {
   return fmt::format("left at {1:g}: {0}",
-                     facts.fast ? "the logs do not ask for it"
-                                : fmt::format("no log is faster than {:g} s a sample", kShowsFriction_s),
+                     facts.fast ? "it does not lower the held-out error"
+                                : fmt::format("no log has a sample period below {:g} s", kShowsFriction_s),
                      id.estimate[p]);
 }
 
 std::string why_width(const Identification& id, int p, const TableFacts& facts) {
   const std::string reason =
       id.method == IdentifyMethod::weak_form ? "the momentum balance hardly depends on it"
-      : !facts.fast ? fmt::format("no log is faster than {:g} s a sample", kShowsFriction_s)
-                    : "the logs do not tell this joint's Coulomb friction, or the options leave it";
+      : !facts.fast ? fmt::format("no log has a sample period below {:g} s", kShowsFriction_s)
+                    : "the logs do not determine this joint's Coulomb friction, or the options do not fit it";
   return fmt::format("left at {:g}: {}", elementary::exp(id.estimate[p]), reason);
 }
 
@@ -49,9 +49,9 @@ std::string why_not(const Identification& id, int p, const TableFacts& facts) {
   if (!still.empty() && p != id.space.timing()) return not_excited(still);
   if (p > id.space.timing()) return why_width(id, p, facts);
   if (p < id.space.rigid() && id.space.base[p].is_rotor && !(id.covariance(p, p) > 0.0))
-    return fmt::format("left at {:g}: it does not pay on data that were not fitted", id.estimate[p]);
+    return fmt::format("left at {:g}: it does not lower the held-out error", id.estimate[p]);
   if (!facts.asked[p] && p == id.space.timing())
-    return fmt::format("left at {:g}: the robot file says how torque runs between samples", id.estimate[p]);
+    return fmt::format("left at {:g}: the robot file states how torque runs between samples", id.estimate[p]);
   if (p < id.space.rigid()) return why_not_told(facts.still, facts.undriven, facts.leaning);
   return p >= id.space.offset(0) && !facts.asked[p] ? why_offset(id, p, facts) : not_excited(still);
 }
@@ -75,8 +75,8 @@ ParameterEstimate entry(const WeakFit& weak, const TableFacts& facts, const Iden
 
 std::string not_excited(const std::vector<int>& still) {
   if (still.empty())
-    return "these motions do not tell it from the others; give a log in which every joint moves at changing "
-           "speed and reverses";
+    return "these motions do not distinguish it from the other parameters; give a log in which every joint "
+           "moves at changing speed and reverses";
   return fmt::format("joint {} never moves; give a log in which it moves and reverses",
                      fmt::join(still, ", "));
 }
@@ -85,13 +85,13 @@ std::string why_not_told(const std::vector<int>& still, const std::vector<int>& 
                          const std::vector<int>& leaning) {
   if (still.empty() && !leaning.empty())
     return fmt::format(
-        "a friction offset of joint {0} would act like its mass and rotor; state fo{0} under "
-        "[known], 0 when its friction is the same both ways",
+        "a friction offset of joint {0} would act like its mass and rotor; state fo{0} under [known], 0 if "
+        "its friction is the same in both directions",
         leaning.front());
   if (still.empty() && !undriven.empty())
     return fmt::format(
-        "joint {} is hardly driven, and the other joints tell something else; give a log in which "
-        "it is driven",
+        "joint {} is hardly driven, and the other joints do not determine it; give a log in which it is "
+        "driven",
         fmt::join(undriven, ", "));
   return not_excited(still);
 }

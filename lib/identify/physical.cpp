@@ -116,7 +116,7 @@ std::string missing_datum(const PhysicalEquations& equations, const Eigen::Matri
   both << rows, loaded;
   const bool payload_helps = freedom(both)[p] < kMoves;
   if (facts.empty() && !payload_helps)
-    return "these motions do not determine it, whatever one other fact is given";
+    return "these motions do not determine it, and no single further length, mass or payload would";
   if (facts.empty()) return "give a second log with a known payload";
   return fmt::format("give {}{}", join_or(facts),
                      payload_helps ? ", or a second log with a known payload" : "");
@@ -173,8 +173,8 @@ ParameterEstimate solved(const PhysicalEquations& equations, const PhysicalUnkno
   const double doubt = kNormal95 * s.spread[k];
   if (doubt >= 1.0) {
     e.identifiable = false;
-    e.why_not = fmt::format("these logs tell it only to within {:.0f} %; give faster ones, or more of them",
-                            100.0 * doubt);
+    e.why_not = fmt::format(
+        "these logs determine it only to within {:.0f} %; give faster ones, or more of them", 100.0 * doubt);
     return e;
   }
   e.value = elementary::exp(s.log_value[k]);

@@ -93,7 +93,7 @@ std::string refusal(const ShootingFit& shot, const Gathered& gathered, const Tor
                     const Identification& id) {
   const Measurements& m = gathered.measurements;
   if (model_error_dominates(shot, m.noise()))
-    return "the motion keeps a regular error that no parameters of this model remove";
+    return "the fit of the motion has a systematic error that no parameters of this model remove";
   // On slow logs a fit that was only stopped early is still more accurate than windows of few samples.
   if (!shot.converged && has_fast_log(id)) return "the fit of the motion did not converge";
   const std::string wrong = infeasibility(id.space, shot.parameters, shot.covariance, m.q_low(), m.q_high());
@@ -138,7 +138,7 @@ ShootingOutcome shoot(std::span<LogSource* const> logs, const Gathered& gathered
   const ShootingFit trial = fit_shooting(problem, shooting, {});
   if (options.method == IdentifyMethod::automatic &&
       model_error_dominates(trial, gathered.measurements.noise())) {
-    out.refused = "the motion keeps a regular error that no parameters of this model remove";
+    out.refused = "the fit of the motion has a systematic error that no parameters of this model remove";
     return out;
   }
   shooting.max_iterations = options.max_iterations;

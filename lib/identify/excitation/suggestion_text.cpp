@@ -15,14 +15,15 @@ std::string list(const std::vector<double>& values) {
 
 std::string comments(const SuggestedMotion& motion) {
   std::string text = fmt::format(
-      "# A motion that tells the parameters: condition number {:.3g}, that of the logs was {:.3g}.\n"
-      "# Before a robot runs it: is there room for it, and are the drives strong enough?\n",
+      "# A motion that determines the parameters: condition number {:.3g}, that of the logs was {:.3g}.\n"
+      "# Check before a robot runs it: the work space must be free and the drives strong enough.\n",
       motion.condition, motion.condition_of_logs);
   for (std::size_t j = 0; j < motion.joints.size(); ++j)
     text += fmt::format(
         "#   joint {}: at most {:.3g} {}, {:.3g} {}{}\n", j + 1, motion.joints[j].fastest,
         velocity_unit(motion.joints[j].kind), motion.joints[j].torque, torque_unit(motion.joints[j].kind),
-        motion.joints[j].beyond_logs ? "; farther or faster than the logs, which hardly moved it" : "");
+        motion.joints[j].beyond_logs ? "; farther or faster than in the logs, which hardly move this joint"
+                                     : "");
   return text;
 }
 

@@ -23,7 +23,7 @@ std::string what_lacks(const JointFit& fit, double forward, bool still) {
   if (forward > kOneWay)
     return "it moves forward only: its friction cannot be separated from an offset of its torque";
   if (forward < 1.0 - kOneWay)
-    return "it moves back only: its friction cannot be separated from an offset of its torque";
+    return "it moves backward only: its friction cannot be separated from an offset of its torque";
   double count = 0.0, sum = 0.0, square = 0.0;
   for (std::size_t k = 0; k < fit.size(); ++k) {
     if (!fit.moving[k]) continue;

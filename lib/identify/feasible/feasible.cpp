@@ -90,10 +90,10 @@ std::string infeasibility(const ParameterSpace& space, const Eigen::VectorXd& pa
                           const Eigen::VectorXd& q_high) {
   for (int p = 0; p < space.rigid(); ++p)
     if ((space.base[p].is_mass || space.base[p].is_rotor) && parameters[p] < -kRounding)
-      return fmt::format("{} came out as {:.4g} {}", space.name(p), parameters[p], space.unit(p));
+      return fmt::format("{} was estimated as {:.4g} {}", space.name(p), parameters[p], space.unit(p));
   for (int p = space.rigid(); p < space.offset(0); ++p)
     if (parameters[p] < -kFrictionDoubt * std::sqrt(covariance(p, p)))
-      return fmt::format("{} came out as {:.4g} {}", space.name(p), parameters[p], space.unit(p));
+      return fmt::format("{} was estimated as {:.4g} {}", space.name(p), parameters[p], space.unit(p));
   if (!positive_definite(chain_from(space, parameters), q_low, q_high))
     return "the inertia matrix was not positive definite over the range of the motion";
   return "";

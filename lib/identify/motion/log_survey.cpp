@@ -179,20 +179,20 @@ Issues TorqueLimits::issues() const {
     const int joint = static_cast<int>(j);
     if (high_[j].value == -low_[j].value) {
       out.add(make_issue("constant_torque", Severity::warning,
-                         fmt::format("tau{} never changes: is it the right column?", joint + 1),
+                         fmt::format("tau{} never changes: check that it is the right column", joint + 1),
                          channel(joint)));
       continue;
     }
     for (const auto& [extreme, sign] : {std::pair{high_[j], 1.0}, std::pair{low_[j], -1.0}})
       if (static_cast<double>(extreme.rows) > kLimitShare * static_cast<double>(rows_) &&
           extreme.value != 0.0)
-        out.add(
-            make_issue("torque_limit", Severity::warning,
-                       fmt::format("tau{} stands at its limit of {:g} in {:.0f} % of the rows: a torque "
-                                   "cut off by the drive or by the log is not what moved the robot",
-                                   joint + 1, sign * extreme.value,
-                                   100.0 * static_cast<double>(extreme.rows) / static_cast<double>(rows_)),
-                       channel(joint)));
+        out.add(make_issue(
+            "torque_limit", Severity::warning,
+            fmt::format("tau{} stands at its limit of {:g} in {:.0f} % of the rows: a torque clipped by the "
+                        "drive or by the log is not the torque that moved the robot",
+                        joint + 1, sign * extreme.value,
+                        100.0 * static_cast<double>(extreme.rows) / static_cast<double>(rows_)),
+            channel(joint)));
   }
   return out;
 }
@@ -233,12 +233,12 @@ Issues survey_issues(const LogSurvey& survey) {
     issues.add(make_issue(std::move(code), severity, std::move(message)));
   };
   if (survey.repeated_rows != RepeatedRows::none)
-    note(
-        "repeated_rows", Severity::warning,
-        fmt::format("{:.1f} % of the rows in motion repeat the row before; {}", 100.0 * survey.repeated_share,
-                    survey.repeated_rows == RepeatedRows::stale
-                        ? "their values are old and were left out"
-                        : "the motion did not go on meanwhile, so they and their time were taken out"));
+    note("repeated_rows", Severity::warning,
+         fmt::format(
+             "{:.1f} % of the rows in motion repeat the row before; {}", 100.0 * survey.repeated_share,
+             survey.repeated_rows == RepeatedRows::stale
+                 ? "their values are outdated and were left out"
+                 : "the motion did not continue during them, so these rows and their time were removed"));
   for (std::size_t j = 0; j < survey.velocity.size(); ++j)
     if (survey.velocity[j].disagrees())
       note(fmt::format("velocity_disagrees_{}", j + 1), Severity::severe,
@@ -248,7 +248,7 @@ Issues survey_issues(const LogSurvey& survey) {
     if (survey.dq_is_difference[j]) derived.push_back(static_cast<int>(j) + 1);
   if (!derived.empty())
     note("velocity_from_position", Severity::note,
-         fmt::format("dq of joint {} is a difference of q: it is no second measurement and was left out",
+         fmt::format("dq of joint {} is a difference of q, not a measurement of its own; it was left out",
                      fmt::join(derived, ", ")));
   return issues;
 }

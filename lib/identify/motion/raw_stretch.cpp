@@ -178,8 +178,8 @@ void check_channels(const LogSource& source, const Log& segment, int joints) {
     fail(joint_count_sentence(source.issues(), segment.joints(), "the robot file", joints));
   if (static_cast<int>(segment.tau.size()) != joints)
     fail(
-        "has no torque of every joint; identification needs tau1.. or [log.columns] that say which columns "
-        "they are");
+        "does not have the torque of every joint; identification needs tau1.. or [log.columns] that name "
+        "their columns");
 }
 
 }  // namespace

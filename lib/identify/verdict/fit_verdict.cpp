@@ -94,16 +94,16 @@ void find_implausible(Identification& id) {
     if (std::abs(mass) < kLightOfRotor * rotor_beside(id, p)) {
       id.status = IdentificationStatus::unexplained;
       id.reason += fmt::format(
-          "; no gravity is felt by {0}, which came out as {1:.4g} kg: is its axis horizontal, or the order of "
-          "axes another? Say so by gravity or axes in the robot file, or state {0} under [known]",
+          "; {0} shows no weight, it was estimated as {1:.4g} kg: if its axis is horizontal or the order of "
+          "axes differs, correct gravity or axes in the robot file, or state {0} under [known]",
           id.space.name(p), mass);
       continue;
     }
     if (mass > kLightest && mass < kHeaviest) continue;
     id.status = IdentificationStatus::unexplained;
     id.reason += fmt::format(
-        "; {0} came out as {1:.4g} kg: if that is not what it weighs, the torque is in "
-        "another unit; if it is, state it as {0} under [known]",
+        "; {0} was estimated as {1:.4g} kg: if that is not its mass, the torque is in another unit; if it "
+        "is, state it as {0} under [known]",
         id.space.name(p), mass);
   }
 }
@@ -115,7 +115,7 @@ void find_unexplained(const std::vector<int>& still, Identification& id) {
       joints.push_back(static_cast<int>(j) + 1);
   if (joints.empty()) return;
   id.status = IdentificationStatus::unexplained;
-  id.reason += fmt::format("; the torque of joint {} is not what this robot needs for its motion",
+  id.reason += fmt::format("; the torque of joint {} is not the torque that this robot needs for its motion",
                            fmt::join(joints, ", "));
 }
 
@@ -128,13 +128,12 @@ void find_poorly_explained(const std::vector<int>& exempt, Identification& id) {
     if (id.fit_r2[j] >= kWellExplained && held_out >= kWellExplained) continue;
     id.status = IdentificationStatus::poorly_explained;
     id.reason += fmt::format(
-        "; joint {}: the model explains {:.0f} % of the torque it was fitted to and {:.0f} % of what was held "
-        "out, so values are rough: {}",
+        "; joint {}: the model explains {:.0f} % of the torque it was fitted to and {:.0f} % of the held-out "
+        "torque, so values are rough: {}",
         j + 1, 100.0 * std::max(id.fit_r2[j], 0.0), 100.0 * std::max(held_out, 0.0),
-        id.fit_r2[j] >= kWellExplained
-            ? "the logs are too short for this many parameters; give longer ones"
-            : "is the load, the gravity or the order of axes another, or friction of "
-              "a kind the model lacks?");
+        id.fit_r2[j] >= kWellExplained ? "the logs are too short for this many parameters; give longer ones"
+                                       : "check the load, the gravity and the order of axes, and whether a "
+                                         "joint has friction of a kind that the model lacks");
     return;
   }
 }

@@ -94,9 +94,9 @@ void find_negative_inertia(Identification& id) {
   const bool turns = id.space.chain.geometry[worst.joint].kind == AxisKind::revolute;
   id.status = IdentificationStatus::unexplained;
   id.reason += fmt::format(
-      "; the inertia of joint {} comes out as {:.4g} {}, and no robot has a negative one: are the positions in "
-      "another unit, such as revolutions or degrees instead of radians? Write the unit of each q into "
-      "[log.columns] of the robot file",
+      "; the inertia of joint {} was estimated as {:.4g} {}, and no robot has a negative one: if the "
+      "positions are in another unit, such as revolutions or degrees instead of radians, write the unit of "
+      "each q into [log.columns] of the robot file",
       worst.joint + 1, std::min(worst.at_joint, worst.value), turns ? "kg m^2" : "kg");
 }
 
