@@ -87,9 +87,8 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .name = "sensor_drift",
         .heading = "position sensor drift",
         .of_a_joint = "reads a position that drifts",
-        .next_check =
-            "Move {} to its reference mark several times in a row: a reading that walks away points to a "
-            "slipping encoder coupling, lost counts or a warm sensor.",
+        .next_check = "Move {} to its reference mark several times in a row: a position that changes each "
+                      "time points to a slipping encoder coupling, lost counts or a warm sensor.",
         .size_words = "the position drifts by {first:+.3g} {length}/s",
         .acts_on = FaultActsOn::sensor,
         .shows_in_each_sample = false,  // a drift changes next to nothing between samples
@@ -102,11 +101,10 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .name = "friction_increase",
         .heading = "more friction",
         .of_a_joint = "turns against more friction",
-        .next_check =
-            "Feel {} by hand with power off: look at bearings, seals, gear, brake drag and lubrication, and "
-            "compare the motor current at slow constant speed in both directions.",
-        .size_words =
-            "dry friction changed by {second:+.3g} {torque}, viscous friction by {first:+.3g} {torque} s/{length}",
+        .next_check = "Turn {} by hand with power off: check bearings, seals, gear, brake drag and "
+                      "lubrication, and compare the motor current at slow constant speed in both directions.",
+        .size_words = "dry friction changed by {second:+.3g} {torque}, viscous friction by {first:+.3g} "
+                      "{torque} s/{length}",
         .acts_on = FaultActsOn::motion,
         .size = {{{
                       .measure = SizeMeasure::viscous_friction,
@@ -143,9 +141,8 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .name = "collision",
         .heading = "collision or outside force",
         .of_a_joint = "was hit or pushed",
-        .next_check =
-            "Look for contact marks and for what stood in the way at that time; check the tool and the "
-            "tightness of {}, and that cables do not pull.",
+        .next_check = "Look for contact marks and for obstacles in the way at that time; check the tool and "
+                      "the tightness of {}, and that cables do not pull.",
         .size_words = "the push had an impulse of {first:+.3g} {torque} s",
         .acts_on = FaultActsOn::motion,
         .passes = true,
@@ -162,11 +159,10 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .kind = FaultKind::torque_sensor_error,
         .name = "torque_sensor_error",
         .heading = "torque or current sensor offset",
-        .of_a_joint = "has a torque or current sensor that is off",
-        .next_check =
-            "Read torque or motor current of {} with the drive off: it should be 0. Look at the zero of the "
-            "current sensor, the calibration of the torque sensor and loose shields; see also whether "
-            "something leans on the arm or pulls at it.",
+        .of_a_joint = "has a torque or current sensor with an offset",
+        .next_check = "Read torque or motor current of {} with the drive off: it should be 0. Look at the "
+                      "zero of the current sensor, the calibration of the torque sensor and loose shields; "
+                      "check also whether something leans on the arm or pulls at it.",
         .size_words = "the torque reads {magnitude:.3g} {torque} too {much}",
         .acts_on = FaultActsOn::motion,  // a drive that misreads its current gives another torque
         .size = {{{
@@ -181,10 +177,9 @@ constexpr std::array<FaultDescription, kFaultKinds> kCatalogue = {{
         .name = "unknown",
         .heading = "unknown fault",
         .of_a_joint = "shows an unknown fault",
-        .next_check =
-            "No known fault and no recorded case fits. Look at the residuals of the joints around this time; "
-            "when the cause is found, record it with `faultline cases add`, so that it is known the next "
-            "time.",
+        .next_check = "No known fault and no recorded case fits. Look at the residuals of the joints around "
+                      "this time; when the cause is found, record it with `faultline cases add`, so that "
+                      "similar cases are recognised.",
         .acts_on = FaultActsOn::motion,
         .size = {{{.measure = SizeMeasure::torque}}},
         .size_count = 1,

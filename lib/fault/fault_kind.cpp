@@ -15,7 +15,7 @@ FaultKind fault_kind_from(const std::string& name) {
     if (name == to_string(kind)) return kind;
     known += (i ? ", " : "") + std::string(to_string(kind));
   }
-  throw Error(ErrorCode::usage, "fault", "\"" + name + "\" is no fault name; expected one of " + known);
+  throw Error(ErrorCode::usage, "fault", "\"" + name + "\" is not a fault name; expected one of " + known);
 }
 
 }  // namespace faultline

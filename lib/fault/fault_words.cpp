@@ -17,15 +17,15 @@ struct Alike {
 
 constexpr std::array<Alike, 12> kAlike = {{
     {FaultKind::free_swinging, FaultKind::torque_loss, true,
-     "losing all of the torque and swinging freely are the same motion; only the share lost tells them "
-     "apart"},
+     "losing all of the torque and swinging freely are the same motion; only the share lost distinguishes "
+     "them"},
     {FaultKind::locked, FaultKind::stuck_encoder, true,
      "both show a position that does not change; only exactly repeated encoder codes and the motion of the "
-     "other joints tell them apart"},
+     "other joints distinguish them"},
     {FaultKind::torque_loss, FaultKind::friction_increase, true,
      "both weaken the motion until the velocity reverses"},
     {FaultKind::torque_loss, FaultKind::payload_change, false,
-     "a lifting joint with less torque and one with more load move alike while only that joint moves"},
+     "a lifting joint with less torque and one with more load behave alike while only that joint moves"},
     {FaultKind::sensor_drift, FaultKind::collision, true,
      "a slow drift of the reading and a small outside force look alike over a short time"},
     {FaultKind::sensor_bias, FaultKind::sensor_drift, true,
@@ -33,11 +33,11 @@ constexpr std::array<Alike, 12> kAlike = {{
     {FaultKind::sensor_bias, FaultKind::collision, true,
      "one jump at the start and nothing after it can be an offset of the reading or a short push"},
     {FaultKind::friction_increase, FaultKind::payload_change, false,
-     "more friction and more load both ask for more torque while speeding up"},
+     "more friction and more load both need more torque during acceleration"},
     {FaultKind::torque_sensor_error, FaultKind::collision, true,
-     "a torque that reads too much and something that pushes look alike while it pushes"},
+     "a torque that is measured too high and an outside force look alike while the force acts"},
     {FaultKind::torque_sensor_error, FaultKind::payload_change, false,
-     "a lifting joint whose torque reads too much moves as one with more load does at rest"},
+     "at rest, a lifting joint whose torque is measured too high looks like one with more load"},
     {FaultKind::payload_change, FaultKind::payload_change, false,
      "a mass on one link and another mass on the next link are the same load while the joint between them "
      "rests"},

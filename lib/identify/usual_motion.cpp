@@ -75,7 +75,7 @@ std::vector<JointSums> sums_of(std::span<LogSource* const> logs, int joints) {
   }
   if (rows < kFewestUsualRows)
     throw Error(ErrorCode::input, "healthy logs",
-                "hold " + std::to_string(rows) + " usable rows; at least " +
+                "have " + std::to_string(rows) + " usable rows; at least " +
                     std::to_string(kFewestUsualRows) + " are needed");
   return sums;
 }

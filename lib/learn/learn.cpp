@@ -213,8 +213,8 @@ Learned learn_tracking_alone(std::span<LogSource* const> healthy, std::span<cons
                              const Robot& robot, double alarms_per_hour, const Progress& progress) {
   if (!labelled.empty())
     throw Error(ErrorCode::input, labelled.front().log->identity().path,
-                "is labelled with a fault, but the healthy logs have no torque: then only healthy motion is "
-                "learned; leave labelled logs out");
+                "is labelled with a fault, but the healthy logs have no torque: a model without torque "
+                "learns healthy motion only; leave labelled logs out");
   tell(progress, "learning how joints follow their references", 0.0);
   Learned out;
   out.model = tracking_model(healthy, robot, alarms_per_hour);

@@ -20,9 +20,9 @@ constexpr int kMostFalseAlarms = 1;   // in all simulated healthy runs: more are
 void doubt_friction(const ParameterEstimate& parameter, ModelDoubts& doubts) {
   const bool viscous = parameter.name.rfind("fv_", 0) == 0, coulomb = parameter.name.rfind("fc_", 0) == 0;
   if ((viscous || coulomb) && parameter.identifiable && parameter.ci95[1] < 0.0)
-    doubts.minor.push_back(fmt::format("the {} friction {} comes out negative, {:.3g} {}, and counts as none",
-                                       viscous ? "viscous" : "Coulomb", parameter.name, parameter.value,
-                                       parameter.unit));
+    doubts.minor.push_back(
+        fmt::format("the {} friction {} was estimated as negative, {:.3g} {}, and is treated as zero",
+                    viscous ? "viscous" : "Coulomb", parameter.name, parameter.value, parameter.unit));
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ ModelDoubts doubts_about(const Validation& validation, bool has_relations) {
   else if (found < kUsual * runs)
     doubts.minor.push_back(fmt::format("it misses {} of {} simulated faults", runs - found, runs));
   if (found >= kBlind * runs && named < kNamed * runs)
-    doubts.minor.push_back(fmt::format("it names only {} of {} simulated faults rightly", named, runs));
+    doubts.minor.push_back(fmt::format("it names only {} of {} simulated faults correctly", named, runs));
   if (validation.false_alarms > kMostFalseAlarms)
     doubts.minor.push_back(fmt::format("it raises {} in {:.2f} h of simulated healthy running",
                                        counted(validation.false_alarms, "false alarm"),
@@ -83,8 +83,8 @@ void refuse_grave(const ModelDoubts& doubts) {
   if (!doubts.is_grave()) return;
   throw Error(
       ErrorCode::input, "the healthy logs",
-      fmt::format("make no model to trust: {}. Leave out what is not healthy or is written otherwise than "
-                  "the robot file says; --force learns a model all the same, marked as doubtful",
+      fmt::format("do not give a reliable model: {}. Leave out logs that are not healthy or do not match the "
+                  "robot file; --force learns a model nevertheless and marks it as doubtful",
                   fmt::join(doubts.grave, "; ")));
 }
 

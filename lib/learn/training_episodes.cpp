@@ -40,12 +40,11 @@ void check_kinds(const std::vector<LabelledEpisode>& episodes, std::size_t runs)
       if (std::find(labels.begin(), labels.end(), episodes[i].label) == labels.end())
         labels.push_back(episodes[i].label);
     if (labels.size() < 2)
-      throw Error(
-          ErrorCode::input, "the healthy logs",
-          fmt::format("are too noisy, or the robot explains too little of them, to tell faults apart: "
-                      "only {} of {} simulated faults show in them. Are units, signs and columns right? "
-                      "Otherwise record longer and faster motions with less noise",
-                      episodes.size(), runs));
+      throw Error(ErrorCode::input, "the healthy logs",
+                  fmt::format("are too noisy, or the robot explains too little of them, to distinguish "
+                              "faults: only {} of {} simulated faults show in them. Check units, signs and "
+                              "columns. If they are right, record longer and faster motions with less noise",
+                              episodes.size(), runs));
   }
 }
 

@@ -61,7 +61,7 @@ class LogTrial {
   void doubt(const Progress& progress) {
     if (in_use_.size() < 2) return;
     const auto found = find_contradiction(progress);
-    if (found) doubts_.push_back(sentence(*found) + "; it was learned from all the same");
+    if (found) doubts_.push_back(sentence(*found) + "; the model was learned from it nevertheless");
   }
 
   bool keeps_all() const { return options_.identify.keep_all || in_use_.size() == 2; }
@@ -112,11 +112,10 @@ class LogTrial {
     if (!found) return false;
     std::optional<ExplainedRobot> others = learned_without(found->log);
     if (!others) return false;
-    issues_.push_back(make_issue(
-        fmt::format("suspicious_log_{}", found->log + 1), Severity::warning,
-        sentence(*found) +
-            "; it was left out. If it is faulty, diagnose it or name its fault with --labels; if it is "
-            "healthy, --keep-all learns from it, too"));
+    issues_.push_back(make_issue(fmt::format("suspicious_log_{}", found->log + 1), Severity::warning,
+                                 sentence(*found) +
+                                     "; it was left out. If it is faulty, diagnose it or name its fault "
+                                     "with --labels; if it is healthy, use it with --keep-all"));
     leave_out(found->log, std::move(*others));
     return true;
   }

@@ -78,7 +78,7 @@ class Labels(InFolder):
                 r'labels, healthy_1.csv: .* is no label; a label is \(fault, joint, onset_s\), such as \("locked"',
             ):
                 faultline.learn(HEALTHY, ROBOT, labels={"healthy_1.csv": label})
-        with self.assertRaisesRegex(faultline.UsageError, '"lokced" is no fault name; expected one of'):
+        with self.assertRaisesRegex(faultline.UsageError, '"lokced" is not a fault name; expected one of'):
             faultline.learn(HEALTHY, ROBOT, labels={"healthy_1.csv": ("lokced", 1, 2.0)})
 
     def test_a_label_of_a_log_that_is_not_there_is_refused(self):
