@@ -21,7 +21,7 @@ CaseOutcome case_outcome_from(const std::string& name) {
   for (const auto outcome : {CaseOutcome::unconfirmed, CaseOutcome::confirmed, CaseOutcome::rejected})
     if (name == to_string(outcome)) return outcome;
   throw Error(ErrorCode::usage, "outcome",
-              "\"" + name + "\" is no outcome; expected one of unconfirmed, confirmed, rejected");
+              "\"" + name + "\" is not an outcome; expected one of unconfirmed, confirmed, rejected");
 }
 
 }  // namespace faultline

@@ -24,7 +24,7 @@ void check_features(const std::vector<Feature>& features) {
   std::set<std::string> names;
   for (const Feature& f : features) {
     if (f.name.empty()) refuse_base("a feature has no name");
-    if (!names.insert(f.name).second) refuse_base("feature \"" + f.name + "\" is there twice");
+    if (!names.insert(f.name).second) refuse_base("feature \"" + f.name + "\" appears twice");
     if (!(f.scale > 0.0 && f.scale <= kLargestNumber && f.weight >= 0.0 && f.weight <= 1.0))
       refuse_base("feature \"" + f.name + "\" needs a scale above 0 and a weight of 0 to 1");
   }
@@ -55,11 +55,12 @@ CaseBase::CaseBase(const std::vector<std::string>& feature_names) {
 CaseBase::CaseBase(Metric metric, std::vector<Case> cases)
     : metric_(std::move(metric)), cases_(std::move(cases)) {
   check_features(metric_.features);
-  if (!is_share(metric_.near_similarity)) refuse_base("the similarity that counts as near must be 0 to 1");
+  if (!is_share(metric_.near_similarity))
+    refuse_base("the similarity from which cases are near must be from 0 to 1");
   std::int64_t last = 0;
   for (Case& c : cases_) {
     if (c.id <= last)
-      refuse_base("case ids must be above 0 and ascend; " + std::to_string(c.id) + " does not");
+      refuse_base("case ids must be above 0 and increase; " + std::to_string(c.id) + " does not");
     last = c.id;
     check(c);
     mend_texts(c);
@@ -89,7 +90,7 @@ void CaseBase::check(const Case& c) const {
   if (!is_sane(c.onset_s)) refuse_base(which + ": the onset is infinite or beyond any measurement");
   if (!c.log_name.empty() && (!is_plain_log_name(c.log_name) || c.log_name.find('/') != std::string::npos))
     refuse_base(which + ": \"" + c.log_name +
-                "\" is no name of a log; give the file's own name, without folders");
+                "\" is not the name of a log; give the name of the file, without folders");
   for (const FaultLabel& label : {c.decision, c.label, c.episode.mlp.label, c.episode.rbfn.label})
     if (label.joint < 0 || label.joint > kMostJoints)
       refuse_base(which + ": joints count from 1, to " + std::to_string(kMostJoints) + " at most");
@@ -99,9 +100,9 @@ const Case& CaseBase::at(std::int64_t id) const {
   const auto found = std::lower_bound(cases_.begin(), cases_.end(), id,
                                       [](const Case& c, std::int64_t wanted) { return c.id < wanted; });
   if (found == cases_.end() || found->id != id)
-    throw Error(ErrorCode::usage, "case " + std::to_string(id),
-                "there is no such case; `faultline cases list` shows the " + std::to_string(cases_.size()) +
-                    " there are");
+    throw Error(
+        ErrorCode::usage, "case " + std::to_string(id),
+        "does not exist; `faultline cases list` shows all " + std::to_string(cases_.size()) + " cases");
   return *found;
 }
 

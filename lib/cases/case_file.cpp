@@ -26,14 +26,14 @@ void check_file(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)
-    refuse_file(
-        path, "there is no such case base; learn writes one beside the model as " + case_base_path("MODEL"));
+    refuse_file(path, "does not exist; `faultline learn` writes a case base beside the model as " +
+                          case_base_path("MODEL"));
   if (status.type() == std::filesystem::file_type::directory)
-    refuse_file(path, "is a directory, a case base file was expected");
+    refuse_file(path, "is a directory; a case base file was expected");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    refuse_file(path, "is a device or pipe, a case base file was expected");
+    refuse_file(path, "is a device or pipe; a case base file was expected");
   if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) == 0)
-    refuse_file(path, "is empty, a case base was expected; restore it from a copy or run learn again");
+    refuse_file(path, "is empty; a case base was expected. Restore it from a copy or run learn again");
 }
 
 void check_whole(SqliteFile& file, const std::string& path, std::int64_t version) {
@@ -42,8 +42,8 @@ void check_whole(SqliteFile& file, const std::string& path, std::int64_t version
     refuse_file(path, "is a damaged or truncated case base (" + check + "); restore it from a copy");
   if (version > 1 && file.text("SELECT digest FROM identity") != case_tables_digest(file, version))
     refuse_file(path,
-                "is damaged, or was changed by another program: its content does not fit the digest that it "
-                "carries; restore it from a copy or run learn again");
+                "is damaged, or was changed by another program: its content does not match its digest; "
+                "restore it from a copy or run learn again");
 }
 
 void check_counts(SqliteFile& file, const std::string& path, const CaseBase& base) {
@@ -233,11 +233,10 @@ void rewrite(const std::string& path, const std::function<CaseBase(SqliteFile& f
 }
 
 [[noreturn]] void fail_to_write(const std::string& path, const std::string& reason) {
-  throw Error(
-      ErrorCode::output, path,
-      "the case base cannot be written; what was there stays as it was. Check that the folder exists, "
-      "is writable and has room (" +
-          reason + ")");
+  throw Error(ErrorCode::output, path,
+              "the case base cannot be written; the previous file is unchanged. Check that the folder "
+              "exists, is writable and has room (" +
+                  reason + ")");
 }
 
 }  // namespace

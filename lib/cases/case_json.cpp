@@ -62,9 +62,10 @@ Case case_from(const Json& json, const std::vector<Feature>& features) {
   c.what_was_done = json.at("what_was_done").get<std::string>();
   c.origin = json.at("origin").get<std::string>();
   if (!c.origin.empty() && !is_plain_log_name(c.origin))
-    throw Error(ErrorCode::input, "case " + std::to_string(c.id),
-                "its origin \"" + c.origin +
-                    "\" is no name of a log, as it leads out of a folder; write the log's own name there");
+    throw Error(
+        ErrorCode::input, "case " + std::to_string(c.id),
+        "its origin \"" + c.origin +
+            "\" is not the name of a log, as it leads out of a folder; write the name of the log there");
   c.log_sha256 = json.value("log_sha256", "");
   if (json.contains("onset_s")) c.onset_s = number_or_nan(json["onset_s"]);
   c.features_by = json.value("features_by", "");
@@ -90,16 +91,16 @@ std::string word_at(std::string_view text, std::size_t at) {
 }
 
 std::string place_words(std::string_view text, std::size_t byte) {
-  if (byte == 0 || byte > text.size()) return "it ends too early; restore it from a copy";
+  if (byte == 0 || byte > text.size()) return "the text ends too early; restore it from a copy";
   const std::size_t at = byte - 1;
   const std::string_view before = text.substr(0, at);
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const std::size_t line_begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
   const std::string word = word_at(text, at);
   std::string sentence = "line " + std::to_string(line) + ", column " + std::to_string(at - line_begin + 1) +
-                         ": \"" + word + "\" cannot stand there in JSON";
+                         ": \"" + word + "\" is not allowed there in JSON";
   for (const char* number : {"Infinity", "-Infinity", "NaN", "nan", "inf", "-inf"})
-    if (word == number) sentence += "; write a finite number, or null for one that is not known";
+    if (word == number) sentence += "; write a finite number, or null for an unknown one";
   return sentence;
 }
 
@@ -122,7 +123,8 @@ std::string json_problem(const std::exception& error, std::string_view text) {
                                    ? std::string("a number")
                                    : message.substr(quote + 1, message.rfind('\'') - quote - 1);
     return number +
-           " is larger than any number that is kept; write a finite one, or null for one that is not known";
+           " is larger than the largest number that can be stored; write a finite one, or null for an "
+           "unknown one";
   }
   return message;
 }
@@ -148,7 +150,8 @@ void check_schema(const Json& json) {
   const std::string schema = json.is_object() ? json.value("schema", "") : "";
   if (schema != kSchema)
     throw Error(ErrorCode::input, "schema",
-                "is \"" + schema + "\", \"" + kSchema + "\" was expected; is this an export of a case base?");
+                "is \"" + schema + "\", \"" + kSchema +
+                    "\" was expected; check that this is an export of a case base");
 }
 
 }  // namespace
@@ -199,9 +202,9 @@ CaseBase from_cases_json(const std::string& text, const std::string& where) try 
   base.describe_robot({json.value("robot", ""), json.value("axes", "")});
   return base;
 } catch (const nlohmann::json::exception& error) {
-  throw Error(ErrorCode::input, where, "is no export of a case base: " + json_problem(error, text));
+  throw Error(ErrorCode::input, where, "is not an export of a case base: " + json_problem(error, text));
 } catch (const Error& error) {
-  throw Error(ErrorCode::input, where, std::string("is no export of a case base: ") + error.what());
+  throw Error(ErrorCode::input, where, std::string("is not an export of a case base: ") + error.what());
 }
 
 }  // namespace faultline

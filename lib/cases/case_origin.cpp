@@ -15,7 +15,7 @@ std::string signature_words(const Case& c) {
 /// Returns the signature, or words that it is not known.
 std::string signed_words(const Case& c) {
   const std::string words = signature_words(c);
-  return words.empty() ? ", by whom and when is not told" : words;
+  return words.empty() ? ", author and date not recorded" : words;
 }
 
 std::string seen_words(const Case& c, const std::string& robot) {
@@ -34,7 +34,7 @@ std::string revision_words(const Case& c) {
 std::string learned_words(const Case& c) {
   if (c.origin == kLabelledOrigin) {
     const std::string robot = c.robot.empty() ? "" : ", robot " + c.robot;
-    return c.log_name.empty() ? "a labelled log, its name is not known" + robot
+    return c.log_name.empty() ? "a labelled log, name not recorded" + robot
                               : "labelled log " + c.log_name + robot;
   }
   if (!c.robot.empty()) return "simulated with the model of robot " + c.robot;
@@ -46,7 +46,7 @@ std::string field_words(const Case& c) {
   if (c.outcome == CaseOutcome::confirmed)
     return "confirmed in the field" + signed_words(c) + (c.label == c.decision ? "" : called);
   if (c.outcome == CaseOutcome::unconfirmed)
-    return "diagnosed, confirmed by nobody" +
+    return "diagnosed, not confirmed" +
            (signature_words(c).empty() ? "" : " (added" + signature_words(c) + ")");
   const char* const word = c.label.kind == FaultKind::unknown ? "rejected" : "corrected";
   return word + (" in the field" + signed_words(c)) + called;
@@ -73,7 +73,7 @@ CaseOrigin case_origin_from(const std::string& name) {
        {CaseOrigin::field, CaseOrigin::labelled, CaseOrigin::diagnosed, CaseOrigin::simulated})
     if (name == to_string(origin)) return origin;
   throw Error(ErrorCode::usage, "origin",
-              "\"" + name + "\" is no origin; expected one of field, labelled, diagnosed, simulated");
+              "\"" + name + "\" is not an origin; expected one of field, labelled, diagnosed, simulated");
 }
 
 bool is_of_field(const Case& c) { return c.origin != kSimulatedOrigin && c.origin != kLabelledOrigin; }

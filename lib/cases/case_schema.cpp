@@ -101,11 +101,11 @@ std::int64_t checked_case_schema(SqliteFile& file, const std::string& name) {
   const std::int64_t version = file.number("PRAGMA user_version");
   if (version > kCaseSchemaVersion)
     refuse_schema(name, "was written by a newer faultline (case base schema " + std::to_string(version) +
-                            ", this program knows " + std::to_string(kCaseSchemaVersion) +
+                            ", this program reads up to " + std::to_string(kCaseSchemaVersion) +
                             "); update the program");
   if (version < 1) refuse_schema(name, "has the unknown case base schema " + std::to_string(version));
   if (schema_of(file) != expected_schema(version))
-    refuse_schema(name, "has other tables than a case base of faultline" + stranger_in(file) +
+    refuse_schema(name, "has tables that differ from those of a case base of faultline" + stranger_in(file) +
                             ": it is damaged, or was changed by another program; restore it from a copy");
   return version;
 }

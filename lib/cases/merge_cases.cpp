@@ -26,8 +26,8 @@ void check_kind(const CaseBase& base, const CaseBase& other) {
                     "; only cases of the same kind of robot can be compared");
   if (base.feature_names() != other.feature_names())
     throw Error(ErrorCode::input, "case base",
-                "the cases to be added compare other features; they come from another robot, another "
-                "meaning of its torque or another program version");
+                "the cases to be added have other features; they come from another robot, another meaning of "
+                "its torque or another program version");
 }
 
 /// Whether a person has judged `c`, and later than `there`.

@@ -54,19 +54,18 @@ void check_place(int joints, const FaultLabel& label, const std::string& where) 
   const std::string kind = to_string(label.kind);
   const FaultPlace place = describe(label.kind).place;
   if (place == FaultPlace::nowhere && label.joint != 0)
-    refuse_label(where, "\"" + kind + "\" belongs to no joint; leave the joint out");
+    refuse_label(where, "\"" + kind + "\" has no joint; leave the joint out");
   if (place == FaultPlace::joint && label.joint == 0)
-    refuse_label(where, "\"" + kind + "\" is a fault of a joint; tell which one, they count from 1");
+    refuse_label(where, "\"" + kind + "\" is a fault of a joint; give its number, counted from 1");
 }
 
 void check_label(const CaseBase& base, const FaultLabel& label, const std::string& where) {
   check_place(joints_of(base), label, where);
   const bool is_fault = label.kind != FaultKind::none && label.kind != FaultKind::unknown;
   if (is_fault && !is_compared(base, label) && !has_case_of(base, label.kind))
-    refuse_label(where,
-                 "\"" + label_text(label) +
-                     "\" is no fault that the model of this case base looks for, by what the torque in this "
-                     "robot's logs means, and no labelled log showed one");
+    refuse_label(where, "\"" + label_text(label) +
+                            "\" is not among the faults that the model of this case base can find, given the "
+                            "meaning of the torque in this robot's logs, and no labelled log showed one");
 }
 
 FaultLabel with_tip(FaultLabel label, int joints) {

@@ -44,7 +44,7 @@ const char* advice_for(int sqlite) {
            "it back";
   switch (sqlite & 0xff) {
     case SQLITE_NOTADB:
-      return "is no SQLite file; a case base written by faultline was expected";
+      return "is not an SQLite file; a case base written by faultline was expected";
     case SQLITE_CORRUPT:
       return "is a damaged or truncated case base; restore it from a copy or run learn again";
     case SQLITE_FULL:
@@ -56,11 +56,11 @@ const char* advice_for(int sqlite) {
     case SQLITE_CANTOPEN:
       return "cannot be opened; check that it exists, is a file and may be read";
     case SQLITE_INTERRUPT:
-      return "takes far longer than its size explains; it is no case base written by faultline";
+      return "takes far longer to read than its size explains; it is not a case base written by faultline";
     case SQLITE_IOERR:
       return "cannot be read or written to its end; nothing was changed. Check the disk";
     default:
-      return "is not what a case base should be";
+      return "is not a valid case base";
   }
 }
 
@@ -106,7 +106,7 @@ void SqliteFile::fail(int code) const {
   const int extended = db_ ? sqlite3_extended_errcode(db_) : code;
   const std::string reason = db_ ? sqlite3_errmsg(db_) : sqlite3_errstr(code);
   throw Error(code_of(extended & 0xff, mode_), name_,
-              std::string(advice_for(extended)) + " (SQLite says: " + reason + ")");
+              std::string(advice_for(extended)) + " (SQLite: " + reason + ")");
 }
 
 void SqliteFile::run(const char* sql) {

@@ -51,7 +51,7 @@ EpisodeClassifier train_episode_classifier(std::span<const LabelledEpisode> epis
   if (classifier.labels.size() < 2)
     throw Error(ErrorCode::input, "training the networks",
                 "the episodes show " + std::to_string(classifier.labels.size()) +
-                    " kinds of fault; at least two are needed to tell them apart");
+                    " kinds of fault; at least two are needed to distinguish them");
   Patterns patterns = patterns_of(episodes, classifier.labels);
   classifier.scaler = standard_scaler(patterns.inputs);
   patterns.inputs = classifier.scaler.apply(patterns.inputs);
@@ -103,7 +103,7 @@ EpisodeClassifier episode_classifier_from_json(const nlohmann::json& json, const
   if (classifier.mlp.outputs() != outputs || classifier.rbfn.outputs() != outputs ||
       classifier.mlp.inputs() != classifier.scaler.size() ||
       classifier.rbfn.inputs() != classifier.scaler.size())
-    throw Error(ErrorCode::input, where, "the episode classifier does not fit its labels and features");
+    throw Error(ErrorCode::input, where, "the episode classifier does not match its labels and features");
   return classifier;
 }
 

@@ -236,7 +236,7 @@ SampleClassifier sample_classifier_from_json(const json& in, const std::string& 
       classifier.rbfn.inputs() != inputs || classifier.mlp.outputs() != outputs ||
       classifier.rbfn.outputs() != outputs || classifier.prior.size() != outputs)
     throw Error(ErrorCode::input, where,
-                fmt::format("the networks do not fit {} features and {} classes", inputs, outputs));
+                fmt::format("the networks do not match {} features and {} classes", inputs, outputs));
   return classifier;
 }
 

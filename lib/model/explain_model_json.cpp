@@ -146,7 +146,8 @@ nlohmann::json rigid_to_json(const RigidColumns& rigid) {
 
 Eigen::Vector3d place_from_json(const nlohmann::json& json, const char* key, const std::string& where) {
   const VectorXd place = vector_from_json(json, key, where);
-  if (place.size() != 3) refuse_damaged(where, std::string("\"") + key + "\" of a joint is no place");
+  if (place.size() != 3)
+    refuse_damaged(where, std::string("\"") + key + "\" of a joint is not a vector of 3 numbers");
   return place;
 }
 
@@ -166,13 +167,13 @@ RigidColumns rigid_from_json(const nlohmann::json& json, const std::string& wher
   rigid.lift = matrix_from_json(json, "lift", where);
   if (n == 0 || n > kMaxJoints || rigid.chain.length.size() > n || rigid.chain.rotor_inertia.size() > n ||
       rigid.lift.rows() != static_cast<Eigen::Index>(n * (kLinkParameters + 1)))
-    refuse_damaged(where, "the parts of its robot do not fit together");
+    refuse_damaged(where, "the parts of its robot are inconsistent");
   return rigid;
 }
 
 void check_sizes(const std::string& where, Eigen::Index size, std::initializer_list<Eigen::Index> all) {
   for (const Eigen::Index other : all)
-    if (other != size) refuse_damaged(where, "the numbers of its joints do not fit together");
+    if (other != size) refuse_damaged(where, "its lists differ in their numbers of joints");
 }
 
 nlohmann::json balance_to_json(const BalanceModel& m) {

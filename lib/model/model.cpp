@@ -95,9 +95,9 @@ void visit_joint_lists(Usual& usual, Visit visit) {
 void check_ranges(const UsualMotion& usual, const std::string& where) {
   for (std::size_t j = 0; j < usual.q_low.size(); ++j)
     if (!(usual.q_low[j] <= usual.q_high[j]))
-      throw Error(ErrorCode::input, where,
-                  "\"q_low\" of joint " + std::to_string(j + 1) +
-                      " lies above its \"q_high\"; learn the model again");
+      throw Error(
+          ErrorCode::input, where,
+          "\"q_low\" of joint " + std::to_string(j + 1) + " is above its \"q_high\"; learn the model again");
 }
 
 nlohmann::json usual_motion_to_json(const UsualMotion& usual) {
@@ -191,7 +191,7 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   if (json.contains("learned_from") && json["learned_from"] == kLearnedFromTracking) {
     if (model.relations.empty())
       throw Error(ErrorCode::input, where,
-                  "is a damaged model (it judges nothing: no relations); learn it again");
+                  "is a damaged model (it has no relations to judge a log by); learn it again");
     return model;
   }
   model.motion = usual_motion_from_json(json.at("motion"), model.robot.joints(), where);

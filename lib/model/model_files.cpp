@@ -37,9 +37,9 @@ ModelFiles load_model_files(const std::string& model, const std::string& cases) 
                 "belongs to another model than " + model + " (identity " +
                     name_of(files.cases.model_identity()) + ", the model has " +
                     name_of(files.model.identity) +
-                    "): was learn interrupted, or one of both copied alone? Restore both from one copy, or "
-                    "learn again, which keeps confirmed cases; `faultline cases import FILE --model MODEL` "
-                    "binds exported cases to a model");
+                    "): learn was interrupted, or one of the two files was copied alone. Restore both from "
+                    "one copy, or learn again, which keeps confirmed cases; `faultline cases import FILE "
+                    "--model MODEL` binds exported cases to a model");
   return files;
 }
 
@@ -48,7 +48,7 @@ std::vector<std::string> notes_of(const Model& model) {
   for (const std::string& doubt : model.doubts) notes.push_back("the model is doubtful: " + doubt);
   for (const ModelEdit& edit : model.edits)
     notes.push_back("the model was edited by hand after it was learned" +
-                    (edit.why.empty() ? std::string(", why is not told") : ": " + edit.why));
+                    (edit.why.empty() ? std::string(", the reason is not recorded") : ": " + edit.why));
   return notes;
 }
 

@@ -131,11 +131,10 @@ const PlacedRange* range_of(std::string_view place) {
 
 [[noreturn]] void refuse(const std::string& place, double number, const Range& range,
                          const std::string& where) {
-  throw Error(
-      ErrorCode::input, where,
-      fmt::format("is a damaged model, or was edited: the number at {} is {}, it can only be {} to {}; "
-                  "restore it from a copy or learn it again",
-                  place.substr(1), number, range.low, range.high));
+  throw Error(ErrorCode::input, where,
+              fmt::format("is a damaged model, or was edited: the number at {} is {}, it must be from {} to "
+                          "{}; restore it from a copy or learn it again",
+                          place.substr(1), number, range.low, range.high));
 }
 
 void check_below(const nlohmann::json& json, std::string& place, const std::string& where) {

@@ -41,18 +41,18 @@ int version_of(const Json& json) {
 Json parsed(const std::string& text, const std::string& where) {
   Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded())
-    refuse(
-        where,
-        "is no complete JSON file: truncated, damaged or not a model; a model is made by `faultline learn`");
+    refuse(where,
+           "is not a complete JSON file: it is truncated, damaged or not a model; `faultline learn` writes a "
+           "model");
   return json;
 }
 
 void check_version(const Json& json, const std::string& where) {
   const int version = version_of(json);
-  if (version == 0) refuse(where, "is JSON but no faultline model; a model is made by `faultline learn`");
+  if (version == 0) refuse(where, "is JSON, but not a faultline model; `faultline learn` writes a model");
   const std::string schema = json["schema"].get<std::string>().substr(0, 40);
   if (version > kModelVersion)
-    refuse(where, "has schema " + schema + ", this program knows " + model_schema(kModelVersion) +
+    refuse(where, "has schema " + schema + ", this program reads " + model_schema(kModelVersion) +
                       "; use a newer faultline or learn the model again");
   if (version < kModelVersion)
     refuse(where,
@@ -78,8 +78,8 @@ nlohmann::json read_model_text(const std::string& text, const std::string& where
   check_version(json, where);
   if (!digest_fits(text))
     refuse(where,
-           "does not fit the digest that it carries: it is a damaged model, or was edited. Restore it from a "
-           "copy or learn it again; if it was edited on purpose, accept it with `faultline model sign`");
+           "does not match its own digest: it is a damaged model, or was edited. Restore it from a copy or "
+           "learn it again; if it was edited on purpose, accept it with `faultline model sign`");
   return nlohmann::json(json);
 }
 

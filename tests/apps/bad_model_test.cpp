@@ -49,12 +49,12 @@ TEST_F(BadModel, Missing) {
 
 TEST_F(BadModel, Empty) { expect_refused("", {"robot.model", "faultline learn"}); }
 
-TEST_F(BadModel, OtherJson) { expect_refused("{\"a\": [1, 2]}", {"robot.model", "no faultline model"}); }
+TEST_F(BadModel, OtherJson) { expect_refused("{\"a\": [1, 2]}", {"robot.model", "not a faultline model"}); }
 
-TEST_F(BadModel, JsonThatIsNoObject) { expect_refused("[1, 2]", {"robot.model", "no faultline model"}); }
+TEST_F(BadModel, JsonThatIsNoObject) { expect_refused("[1, 2]", {"robot.model", "not a faultline model"}); }
 
 TEST_F(BadModel, SchemaThatIsNoText) {
-  expect_refused("{\"schema\": 3}", {"robot.model", "no faultline model"});
+  expect_refused("{\"schema\": 3}", {"robot.model", "not a faultline model"});
 }
 
 TEST_F(BadModel, NewerSchema) {

@@ -31,7 +31,7 @@ TEST(CaseOrigin, WhatIsNotKnownIsSaidToBeSo) {
   c.person = c.date = c.robot = "";
   c.origin = kByHandOrigin;
   EXPECT_EQ(origin_words(c),
-            "confirmed in the field, by whom and when is not told, recorded by hand without a log");
+            "confirmed in the field, author and date not recorded, recorded by hand without a log");
 }
 
 TEST(CaseOrigin, AnotherNameThanWasDecidedIsTold) {
@@ -50,7 +50,7 @@ TEST(CaseOrigin, ADiagnosisThatNobodyConfirmedIsNoFieldCase) {
   Case c = field_case();
   c.outcome = CaseOutcome::unconfirmed;
   EXPECT_EQ(origin_of(c), CaseOrigin::diagnosed);
-  EXPECT_EQ(origin_words(c).rfind("diagnosed, confirmed by nobody", 0), 0u);
+  EXPECT_EQ(origin_words(c).rfind("diagnosed, not confirmed", 0), 0u);
 }
 
 TEST(CaseOrigin, LabelledLogsAndSimulatedCasesSaySo) {

@@ -71,12 +71,12 @@ TEST_F(HostileCaseFile, AFlippedBitIsRefusedOrChangesNothingThatIsRead) {
 
 TEST_F(HostileCaseFile, AChangedNumberIsRefused) {
   run("UPDATE feature SET weight = weight * 0.999 WHERE position = 1");
-  EXPECT_NE(refusal().find("does not fit the digest"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("does not match its digest"), std::string::npos) << refusal();
 }
 
 TEST_F(HostileCaseFile, AForeignModelIsRefused) {
   run("UPDATE identity SET model = 'another'");
-  EXPECT_NE(refusal().find("does not fit the digest"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("does not match its digest"), std::string::npos) << refusal();
 }
 
 TEST_F(HostileCaseFile, AViewThatNeverEndsIsRefusedAtOnce) {
@@ -132,7 +132,7 @@ TEST_F(HostileCaseFile, VersionTwoIsReadWithItsDigest) {
 
 TEST_F(HostileCaseFile, AChangedPersonIsRefused) {
   run("UPDATE fault_case SET person = 'somebody else' WHERE id = 1");
-  EXPECT_NE(refusal().find("does not fit the digest"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("does not match its digest"), std::string::npos) << refusal();
 }
 
 TEST_F(HostileCaseFile, LostRowsOfAnEarlierVersion) {

@@ -38,10 +38,10 @@ TEST(PossibleLabels, AJointThatTheRobotHasNotIsRefused) {
 }
 
 TEST(PossibleLabels, AJointIsToldWhereTheFaultHasOne) {
-  EXPECT_NE(refusal(base_of_bank(), {FaultKind::locked, 0}).find("tell which one"), std::string::npos);
+  EXPECT_NE(refusal(base_of_bank(), {FaultKind::locked, 0}).find("give its number"), std::string::npos);
   EXPECT_NE(refusal(base_of_bank(), {FaultKind::none, 1}).find("no joint"), std::string::npos);
   EXPECT_EQ(refusal(base_of_bank(), {FaultKind::payload_change, 2}), "");
-  EXPECT_NE(refusal(base_of_bank(), {FaultKind::payload_change, 1}).find("looks for"), std::string::npos)
+  EXPECT_NE(refusal(base_of_bank(), {FaultKind::payload_change, 1}).find("can find"), std::string::npos)
       << "the model of this case base knows no mass on link 1";
   EXPECT_EQ(refusal(base_of_bank(), {FaultKind::none, 0}), "");
   EXPECT_EQ(refusal(base_of_bank(), {FaultKind::unknown, 0}), "");

@@ -18,7 +18,7 @@ void visit_twin_fields(Options& o, Visit visit) {
   visit("dwell", o.dwell, "of the usual move: rest after a move");
   visit("pd_share", o.pd_share, "of runs under PD, the rest under computed torque");
   visit("mass_error", o.mass_error, "of each mass at most: error of the controller's model");
-  visit("control_period_s", o.control_period_s, "s, where the torque changes between samples");
+  visit("control_period_s", o.control_period_s, "s, if the torque changes between samples");
   visit("integration_share", o.integration_share, "of the control period: longest step of integration");
   visit("trip_speed", o.trip_speed, "of the usual speed: the drives trip");
   visit("attempts", o.attempts, "controllers drawn until one holds the robot");

@@ -15,7 +15,8 @@ namespace {
 
 void check_range(const std::string& key, const DrawRange& range) {
   if (!(range.low <= range.high))
-    bad(key, fmt::format("goes from {} to {}; the first must not be the larger", range.low, range.high));
+    bad(key, fmt::format("goes from {} to {}; the first number must not exceed the second", range.low,
+                         range.high));
   if (range.low < 0.0) bad(key, fmt::format("begins at {}, must not be negative", range.low));
   if (range.spread == Spread::log_uniform && range.low <= 0.0)
     bad(key, fmt::format("is log-uniform from {}, must begin above 0", range.low));
@@ -23,7 +24,8 @@ void check_range(const std::string& key, const DrawRange& range) {
 
 void check_field(const std::string& key, double value) {
   if (!(value >= 0.0)) bad(key, fmt::format("is {}, must not be negative", value));
-  if (key.ends_with("_share") && value > 1.0) bad(key, fmt::format("is {}, a share is at most 1", value));
+  if (key.ends_with("_share") && value > 1.0)
+    bad(key, fmt::format("is {}, but a share must be at most 1", value));
 }
 
 void check_field(const std::string& key, const DrawRange& range) {
@@ -52,7 +54,8 @@ void TwinOptions::check() const {
   if (!(control_period_s > 0.0)) bad("control_period_s", "is 0, must be above 0");
   if (shortest_move_s > longest_move_s)
     bad("shortest_move_s", fmt::format("is {}, above longest_move_s = {}", shortest_move_s, longest_move_s));
-  if (onset.high > 1.0) bad("onset", fmt::format("ends at {}, a share of the run is at most 1", onset.high));
+  if (onset.high > 1.0)
+    bad("onset", fmt::format("ends at {}, but a share of the run must be at most 1", onset.high));
   for (int k = 0; k < kFaultKinds; ++k) {
     const std::string key = std::string("faults.") + to_string(static_cast<FaultKind>(k));
     for (const DrawRange& range : faults[k].size) check_range(key, range);
