@@ -89,15 +89,15 @@ void BatchFolder::lock(bool wait) {
   if (lock_ < 0)
     throw Error(ErrorCode::output, path_,
                 std::string("cannot be written to (") + std::strerror(errno) +
-                    "); check its permissions or give another folder with -o");
+                    "); check its permissions or choose another folder with -o");
   int status;
   do status = ::flock(lock_, wait ? LOCK_EX : LOCK_EX | LOCK_NB);
   while (status != 0 && errno == EINTR);
   if (status == 0 || errno != EWOULDBLOCK) return;  // a file system without locks: temporary names differ
   ::close(lock_);
-  throw Error(
-      ErrorCode::output, path_,
-      "another batch is writing there; wait for its end (--wait does) or give another folder with -o");
+  throw Error(ErrorCode::output, path_,
+              "another batch is writing to this folder; wait for its end (--wait does) or choose another "
+              "folder with -o");
 }
 
 void BatchFolder::mark_unfinished() const { remove_file(finished()); }

@@ -72,7 +72,7 @@ std::string reasons_text(const std::vector<LogWithoutDiagnosis>& logs) {
        std::span(logs).first(std::min<std::size_t>(logs.size(), kShownReasons)))
     text += fmt::format("  not diagnosed: {}: {}\n", brief(log.log), brief(log.reason));
   if (logs.size() > kShownReasons)
-    text += fmt::format("  and {} more without a diagnosis; index.csv has the reason of each\n",
+    text += fmt::format("  and {} more without a diagnosis; index.csv lists the reason of each\n",
                         logs.size() - kShownReasons);
   return text;
 }
@@ -139,7 +139,7 @@ std::string to_text(const BatchSummary& summary) {
   std::string text =
       fmt::format("{}: {} healthy, {} faulty, {} inconclusive, {} unusable", counted(all.logs, "log"),
                   all.healthy, all.faulty, all.inconclusive, all.unusable);
-  text += all.failed > 0 ? fmt::format(", {} failed by a defect of faultline\n", all.failed) : "\n";
+  text += all.failed > 0 ? fmt::format(", {} failed because of a defect of faultline\n", all.failed) : "\n";
   for (const auto& [kind, joints] : summary.kinds)
     for (const auto& [joint, count] : joints)
       text += fmt::format("  {:>6}  {}{}\n", count, kind, joint > 0 ? fmt::format(", joint {}", joint) : "");

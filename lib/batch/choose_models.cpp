@@ -75,7 +75,7 @@ void refuse_twice(const std::vector<std::string>& folders) {
       throw Error(ErrorCode::usage, "--model",
                   folder.empty()
                       ? "is given twice without a folder; give --model DIR=MODEL for the logs below DIR"
-                      : "is given twice for folder " + folder + "; give one model a folder");
+                      : "is given twice for folder " + folder + "; give one model per folder");
 }
 
 }  // namespace
@@ -106,14 +106,13 @@ void choose_models(std::vector<BatchLog>& logs, const std::vector<std::string>& 
   for (const Choice& choice : choices)
     if (!used[static_cast<std::size_t>(choice.model)] && choice.real.empty())
       throw Error(ErrorCode::usage, "--model " + folders[static_cast<std::size_t>(choice.model)] + "=...",
-                  "no log lies below a folder of that name; logs are called as " +
+                  "no log is below a folder of that name; logs have names such as " +
                       (logs.empty() ? std::string("runs/a.csv") : logs.front().name));
   if (without > 0)
-    throw Error(
-        ErrorCode::usage, first_without,
-        fmt::format("{} of {} have no model, this one is the first; add --model DIR=MODEL for the folder, "
-                    "or --model MODEL for all that have none of their own",
-                    without, counted(static_cast<int>(logs.size()), "log")));
+    throw Error(ErrorCode::usage, first_without,
+                fmt::format("{} of {} have no model, this is the first one; add --model DIR=MODEL for its "
+                            "folder, or --model MODEL for all logs without a model of their own",
+                            without, counted(static_cast<int>(logs.size()), "log")));
 }
 
 }  // namespace faultline

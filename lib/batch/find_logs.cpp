@@ -46,7 +46,7 @@ class Finder {
     } else if (fs::exists(path, error)) {
       add(path, path.filename().generic_string());
     } else {
-      throw Error(ErrorCode::input, given, "is not there; give files or folders of logs");
+      throw Error(ErrorCode::input, given, "does not exist; give files or folders of logs");
     }
   }
 

@@ -56,7 +56,7 @@ void GrowingFile::finish() {
 void GrowingFile::fail() const {
   throw Error(ErrorCode::output, path_,
               std::string("cannot be written (") + std::strerror(errno) +
-                  "); what is done stays done: make room and run the same command again");
+                  "); finished logs are kept: make room and run the same command again");
 }
 
 }  // namespace faultline

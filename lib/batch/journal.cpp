@@ -33,11 +33,10 @@ void refuse_names(const JournalEntry& entry, const std::string& journal) {
   if (!is_plain_log_name(row.log)) wrong = &row.log;
   if (row.result.empty() ? has_files : !is_plain_name(row.result)) wrong = &row.result;
   if (wrong)
-    throw Error(
-        ErrorCode::input, journal,
-        "names the file \"" + *wrong +
-            "\", which is no name of a file in this folder; no batch writes that. Do not use these results; "
-            "run the batch again into a new folder");
+    throw Error(ErrorCode::input, journal,
+                "names the file \"" + *wrong +
+                    "\", which is not the name of a file in this folder, so no batch wrote this journal. Do "
+                    "not use these results; run the batch again into a new folder");
 }
 
 std::optional<JournalEntry> entry_from(const std::string& line) {
@@ -99,10 +98,10 @@ void JournalWriter::add(const JournalEntry& entry) { write(to_journal_line(entry
 void JournalWriter::write(const std::string& line) {
   const auto written = ::write(file_, line.data(), line.size());
   if (written == static_cast<ssize_t>(line.size())) return;
-  const std::string why = written < 0 ? std::strerror(errno) : "no room left";
+  const std::string why = written < 0 ? std::strerror(errno) : "no space left";
   throw Error(
       ErrorCode::output, path_,
-      "cannot be written (" + why + "); what is done stays done: make room and run the same command again");
+      "cannot be written (" + why + "); finished logs are kept: make room and run the same command again");
 }
 
 }  // namespace faultline

@@ -21,10 +21,11 @@ struct Part {
 
 Part open_part(const std::string& path) {
   if (!is_batch_folder(path))
-    throw Error(ErrorCode::input, path, "is no folder of results of faultline batch");
+    throw Error(ErrorCode::input, path, "is not a result folder of faultline batch");
   Part part{std::make_unique<BatchFolder>(path, false), {}};
   if (!std::filesystem::exists(part.folder->finished()))
-    throw Error(ErrorCode::input, path, "is not finished; run its batch again, it goes on where it stopped");
+    throw Error(ErrorCode::input, path,
+                "is not finished; run its batch again, which continues where it stopped");
   part.facts = read_facts(part.folder->finished());
   return part;
 }
@@ -32,11 +33,11 @@ Part open_part(const std::string& path) {
 void refuse_others(const BatchFacts& facts, const BatchFacts& first, const std::string& path) {
   if (settings_of(facts) != settings_of(first))
     throw Error(ErrorCode::input, path,
-                "was made with another model, case base, version or options than the first folder");
+                "has another model, case base, version or options than the first folder");
   if (facts.logs != first.logs)
     throw Error(ErrorCode::input, path,
-                fmt::format("is a part of a list of {} logs, the first folder of one of {}; were logs added "
-                            "meanwhile? Run the shards again",
+                fmt::format("is a part of a list of {} logs, the first folder of one of {}; if logs were "
+                            "added meanwhile, run the shards again",
                             facts.logs, first.logs));
 }
 
@@ -45,7 +46,8 @@ void copy(const std::string& name, const BatchFolder& from, const BatchFolder& t
   if (sha256.empty()) return;
   const std::string bytes = from.read(name);
   if (sha256_hex(bytes) != sha256)
-    throw Error(ErrorCode::input, from.file(name), "is not what the batch wrote; run its batch again");
+    throw Error(ErrorCode::input, from.file(name),
+                "was changed after the batch wrote it; run its batch again");
   to.write(name, bytes);
 }
 

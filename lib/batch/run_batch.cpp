@@ -33,7 +33,7 @@ void refuse_special_file(const std::string& path) {
   if (std::filesystem::is_directory(path, error))
     throw Error(ErrorCode::input, path, "is a folder that cannot be read; check its permissions");
   if (!std::filesystem::is_regular_file(path, error))
-    throw Error(ErrorCode::input, path, "is no regular file");
+    throw Error(ErrorCode::input, path, "is not a regular file");
 }
 
 /// In the order in which the list uses them, so that the order of options changes no byte.

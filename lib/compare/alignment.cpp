@@ -122,27 +122,28 @@ std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share
 RunAlignment finished(RunAlignment alignment, const std::string& basis, double without, bool is_only_time) {
   const bool agrees = alignment.left_rms <= kSameMotion;
   alignment.same_motion = agrees || alignment.parts;
-  const std::string left = agrees || !alignment.parts
-                               ? percent(alignment.left_rms) + " of the motion (rms)"
-                               : fmt::format("{:.0f} % of the motion in {:.0f} % of the time, and part then",
-                                             100.0 * kSameMotion, 100.0 * alignment.agreeing);
+  const std::string left =
+      agrees || !alignment.parts
+          ? percent(alignment.left_rms) + " of the motion (rms)"
+          : fmt::format("{:.0f} % of the motion in {:.0f} % of the time, and diverge then",
+                        100.0 * kSameMotion, 100.0 * alignment.agreeing);
   if (!alignment.same_motion) {
-    alignment.why = "at best alignment the " + basis + " are still " + left +
-                    " apart, so what differs is the motion, not the robot";
+    alignment.why = "at best alignment the " + basis + " still differ by " + left +
+                    ", so the motions differ, not the robot";
   } else if (alignment.warped()) {
     const double first = alignment.first_s.back() - alignment.first_s.front();
     const double second = alignment.second_s.back() - alignment.second_s.front();
     alignment.why = fmt::format(
-        "no constant shift suits, the moves last differently (the second run takes {:.4g} times as long); times "
-        "follow the {}, which then agree to {}, instead of {}",
+        "no constant shift fits, because the moves differ in duration (the second run takes {:.4g} times as "
+        "long); times follow the {}, which then agree to {}, instead of {}",
         second / first, basis, left, percent(without));
   } else if (alignment.kind == AlignmentKind::motion) {
-    alignment.why = fmt::format("the {} agree to {} with the second run taken {:.4f} s {}, and to {} without",
-                                basis, left, std::abs(alignment.shift_s),
-                                alignment.shift_s >= 0 ? "later" : "earlier", percent(without));
+    alignment.why = fmt::format(
+        "the {} agree to {} with the second run shifted {:.4f} s {}, and to {} without a shift", basis, left,
+        std::abs(alignment.shift_s), alignment.shift_s >= 0 ? "later" : "earlier", percent(without));
   } else {
     alignment.why = "each run counts from its first row; the " + basis + " agree to " + left +
-                    (is_only_time ? "" : ", and no shift makes that better");
+                    (is_only_time ? "" : ", and no shift improves that");
   }
   return alignment;
 }

@@ -134,18 +134,18 @@ std::vector<std::string> notes_of(const RunSignals& first, const RunSignals& sec
   if (!all.alignment.same_motion)
     notes.push_back(
         first.find("residual", 1)
-            ? "signals of different motions must differ and are not judged; residuals are"
+            ? "signals of different motions must differ and are not judged; only the residuals are judged"
             : "signals of different motions must differ and are not judged; with --model the residuals of "
               "both are compared, which do not follow from the motion");
   for (const SignalDifference& signal : all.signals)
     if (!signal.judged && all.alignment.same_motion) {
-      notes.push_back("torques are shown but not judged: moves that last differently need different torques");
+      notes.push_back("torques are shown but not judged: moves of different duration need different torques");
       break;
     }
   const double alone = std::max(first.length_s, second.length_s) - all.compared_s;
   if (alone > std::max(first.period_s, second.period_s) * 2.0)
     notes.push_back(
-        fmt::format("{:.3f} s of the longer run have nothing beside them and are not compared", alone));
+        fmt::format("{:.3f} s of the longer run have no counterpart and are not compared", alone));
   return notes;
 }
 

@@ -98,7 +98,7 @@ std::string to_text(const RunComparison& comparison, const std::vector<char>& tu
               "", kWidth);
   text += "\nDifference, second minus first; times from the start of the first run:\n\n";
   text += fmt::format("  {:<9}{:>5}  {:<6}{:>10}{:>11}{:>12}{:>11}{:>12}\n", "", "joint", "unit", "rms",
-                      "largest", "at", "threshold", "leaves it");
+                      "largest", "at", "threshold", "diverges at");
   for (const SignalDifference& signal : comparison.signals) text += line_of(signal, turns);
   for (const SignalDifference& signal : comparison.signals)
     if (signal.quantity == "residual")
@@ -109,13 +109,13 @@ std::string to_text(const RunComparison& comparison, const std::vector<char>& tu
   const bool has_residuals =
       std::any_of(comparison.signals.begin(), comparison.signals.end(),
                   [](const SignalDifference& signal) { return signal.quantity == "residual"; });
-  text += "\n" +
-          wrapped(fmt::format("Threshold: {:.3g} times the noise of both signals, estimated from their third "
-                              "differences{}; a signal leaves it with "
-                              "three samples in a row.",
-                              comparison.sigmas,
-                              has_residuals ? " (of residuals at least that of healthy logs)" : ""),
-                  "", kWidth);
+  text +=
+      "\n" + wrapped(fmt::format("Threshold: {:.3g} times the noise of both signals, estimated from their "
+                                 "third differences{}; a signal diverges if three samples in a row "
+                                 "exceed it.",
+                                 comparison.sigmas,
+                                 has_residuals ? " (of residuals at least that of healthy logs)" : ""),
+                     "", kWidth);
   for (const std::string& note : comparison.notes)
     text += wrapped("Note: " + printable(note) + ".", "", kWidth);
   return text;

@@ -17,7 +17,7 @@ std::string result_word(const CheckedItem& item) {
   if (!item.damage.empty()) return "DAMAGED";
   if (item.same()) return "same";
   return fmt::format("{} differ{}", item.comparison.differences.size(),
-                     item.changes_verdict() ? ", also in what is found" : "");
+                     item.changes_verdict() ? ", also in the findings" : "");
 }
 
 std::string change(const std::string& expected, const std::string& actual) {
@@ -56,7 +56,7 @@ std::string summary(const GoldenCheck& check) {
   const auto same = count([](const CheckedItem& i) { return i.same(); });
   const auto different = std::ssize(check.items) - same - damaged;
   const auto found = count([](const CheckedItem& i) { return i.changes_verdict(); });
-  const std::string where = different == 0 ? "" : fmt::format(" ({} also in what is found)", found);
+  const std::string where = different == 0 ? "" : fmt::format(" ({} also in the findings)", found);
   return fmt::format("{} of {} as expected, {} different{}, {} damaged.\n", same, check.items.size(),
                      different, where, damaged);
 }
@@ -69,7 +69,7 @@ std::string divergence_text(const CheckedItem& item) {
   std::string text = "first divergence";
   if (!std::isnan(first->time_s)) text += " at " + seconds_text(first->time_s);
   text += fmt::format(": {} is {}, expected {}", first->channel,
-                      first->actual.empty() ? "not there" : printable(first->actual),
+                      first->actual.empty() ? "missing" : printable(first->actual),
                       first->expected.empty() ? "none" : printable(first->expected));
   if (!std::isnan(first->allowed) && first->channel != "rows")
     text += fmt::format(" (allowed +-{:.3g})", first->allowed);

@@ -140,7 +140,7 @@ void compare_traces(const Trace& expected, const Trace& actual, const ToleranceC
     const std::string& channel = expected.channels[c];
     const auto same = std::find(actual.channels.begin(), actual.channels.end(), channel);
     if (same == actual.channels.end()) {
-      comparison.differences.push_back({channel, kNoNumber, "predicted", "no such channel", kNoNumber});
+      comparison.differences.push_back({channel, kNoNumber, "predicted", "missing channel", kNoNumber});
       comparison.lines.push_back({channel + " predicted", "", true});
       continue;
     }

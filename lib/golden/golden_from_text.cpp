@@ -20,7 +20,7 @@ std::string inner_path(const TomlTable& table, const std::string& key) {
   const std::string path = table.text(key);
   if (!is_plain_path(path))
     table.fail(key, "expected the path of a file below the golden folder, such as logs/run.csv, found \"" +
-                        path + "\"; write there where in the folder the file is");
+                        path + "\"; write the path of the file in that folder");
   return path;
 }
 
@@ -38,8 +38,8 @@ Tolerances tolerances(const TomlTable& table, const std::set<std::string>& more 
     if (tolerance_family(name).empty() && !more.count(name)) {
       const std::string near = nearest_word(name, tolerance_families());
       table.fail(name, near.empty()
-                           ? "is no channel that is compared (docs/golden.md lists them)"
-                           : fmt::format("is no channel that is compared; did you mean \"{}\"?", near));
+                           ? "is not among the compared channels (docs/golden.md lists them)"
+                           : fmt::format("is not among the compared channels; did you mean \"{}\"?", near));
     }
     read.by_channel[name] = tolerance(table.table(name));
   }
@@ -127,7 +127,7 @@ void check_names(const GoldenSet& set, const TomlTable& table) {
       table.fail("log", "two logs have the name \"" + log.name() + "\"; rename one");
   if (!set.identification) return;
   for (const std::string& name : set.identification->logs)
-    if (!names.count(name)) table.fail("identification", "names a log that is not there: \"" + name + "\"");
+    if (!names.count(name)) table.fail("identification", "names a log that does not exist: \"" + name + "\"");
 }
 
 GoldenSet read(const TomlTable& table) {
@@ -152,7 +152,8 @@ GoldenSet read(const TomlTable& table) {
   for (const TomlTable& one : table.tables("log")) set.logs.push_back(log(one, set.joints));
   if (table.integer("log_count", -1) != std::ssize(set.logs))
     table.fail("log_count",
-               fmt::format("does not agree with the {} logs in the file; was it cut?", set.logs.size()));
+               fmt::format("does not match the {} logs in the file, which may be truncated: restore it",
+                           set.logs.size()));
   check_names(set, table);
   table.finish();
   return set;
@@ -162,7 +163,8 @@ GoldenSet read(const TomlTable& table) {
 
 GoldenSet golden_from_text(const std::string& text, const std::string& where) {
   if (text.empty() || text.back() != '\n')
-    throw Error(ErrorCode::input, where, "does not end with a whole line; it was cut, restore it");
+    throw Error(ErrorCode::input, where,
+                "does not end with a complete line: the file is truncated, restore it");
   try {
     return read(TomlTable::parse(text, where));
   } catch (const Error& error) {

@@ -58,11 +58,11 @@ std::string value_lines(const std::vector<ParameterValue>& values) {
 
 std::string head(const GoldenSet& set) {
   std::string text =
-      "# What faultline is expected to say of each log in this folder. Compare: faultline golden check;\n"
-      "# take what changed: faultline golden accept. Tolerances may be edited: a number is as expected when\n"
+      "# Expected results of faultline for each log in this folder. Compare: faultline golden check;\n"
+      "# accept changes: faultline golden accept. Tolerances may be edited: a number is as expected if\n"
       "# |actual - expected| <= absolute + relative * |expected|. Names: q, dq or dq2 the predicted motion,\n"
-      "# velocity_rms or velocity_rms_2 a residual, parameter or m1 what is identified, model or model_a what the\n"
-      "# model's robot is, trigger and threshold what alarms.\n";
+      "# velocity_rms or velocity_rms_2 a residual, parameter or m1 an identified one, model or model_a one\n"
+      "# of the model's robot, trigger and threshold those of alarms.\n";
   text += fmt::format("schema = \"faultline/golden/2\"\nprogram = {}\nlog_count = {}\ntrace_points = {}\n",
                       quoted(set.program_version), set.logs.size(), set.trace_points);
   text += length_line(set.tolerances);

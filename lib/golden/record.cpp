@@ -28,7 +28,7 @@ std::vector<ReplayLog> named_logs(const std::vector<std::string>& paths) {
       throw Error(ErrorCode::usage, path, "cannot be named in golden.toml; rename the log");
     if (!names.insert(name).second)
       throw Error(ErrorCode::usage, path,
-                  "has the name of another log; golden logs are told by name, rename one");
+                  "has the same name as another log; names of golden logs must differ, rename one");
     logs.push_back({name, path, false});
   }
   return logs;
@@ -58,7 +58,7 @@ void check_usable(const GoldenRun& run) {
 std::string identify_from_healthy(const std::vector<ReplayLog>& logs, const GoldenRun& run,
                                   const Model& model, const LogOpener& open, const RecordOptions& options,
                                   GoldenSet& set) {
-  if (!options.identify) return "not asked for";
+  if (!options.identify) return "not requested";
   std::vector<ReplayLog> healthy;
   GoldenIdentification identified;
   for (std::size_t i = 0; i < logs.size(); ++i) {
@@ -66,7 +66,7 @@ std::string identify_from_healthy(const std::vector<ReplayLog>& logs, const Gold
     healthy.push_back(logs[i]);
     identified.logs.push_back(logs[i].name);
   }
-  if (healthy.empty()) return "none of the logs is healthy";
+  if (healthy.empty()) return "no log was found healthy";
   identified.expected = observe_identification(healthy, model, open, options.threads);
   if (identified.expected.status == kUnusable) return identified.expected.reason;
   identified.tolerances = default_tolerances(identified.expected);
@@ -80,8 +80,9 @@ Recorded record_golden(const std::string& folder, const std::vector<std::string>
                        const std::string& model, const std::string& cases, const LogOpener& open,
                        const RecordOptions& options, const Progress& progress) {
   if (fs::exists(golden_file(folder)))
-    throw Error(ErrorCode::usage, folder,
-                "is a golden folder already; change it with faultline golden accept, or record into another");
+    throw Error(
+        ErrorCode::usage, folder,
+        "is already a golden folder; change it with faultline golden accept, or record into another folder");
   const std::vector<ReplayLog> logs = named_logs(paths);
   const ModelAndCases subject = load_model_and_cases(model, cases);
   const GoldenRun run = replay(logs, subject, open, {options.trace_points, options.threads}, progress);

@@ -23,7 +23,7 @@ Trace trace(const Json& json, const std::string& where) {
   for (const Json& values : json.at("values")) read.values.push_back(numbers_or_nan(values));
   bool fits = read.values.size() == read.channels.size();
   for (const auto& values : read.values) fits &= values.size() == read.time.size();
-  if (!fits) throw Error(ErrorCode::input, where, "has a trace whose channels are not of one length");
+  if (!fits) throw Error(ErrorCode::input, where, "has a trace whose channels differ in length");
   return read;
 }
 
@@ -69,7 +69,7 @@ ObservedIdentification identification(const Json& json) {
 
 GoldenRun run(const Json& json, const std::string& where) {
   if (json.at("schema") != "faultline/golden-check/1")
-    throw Error(ErrorCode::input, where, "is of another schema; expected faultline/golden-check/1");
+    throw Error(ErrorCode::input, where, "has another schema; expected faultline/golden-check/1");
   GoldenRun read;
   read.program_version = json.at("program").at("version");
   const Json& model = json.at("model");
@@ -87,7 +87,7 @@ GoldenRun run_from_json(const std::string& text, const std::string& where) {
     return run(Json::parse(text), where);
   } catch (const Json::exception&) {
     throw Error(ErrorCode::input, where,
-                "is not what faultline golden check --json writes, or it was cut; write it again");
+                "is not an output of faultline golden check --json, or it is truncated; write it again");
   }
 }
 

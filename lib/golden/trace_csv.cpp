@@ -12,7 +12,7 @@ namespace {
 
 [[noreturn]] void damaged(const std::string& where, int line, const std::string& what) {
   throw Error(ErrorCode::input, fmt::format("{}, line {}", where, line),
-              what + "; the trace is damaged: restore it, or take a new one with faultline golden accept");
+              what + "; the trace is damaged: restore it, or record a new one with faultline golden accept");
 }
 
 std::string_view cut(std::string_view& text, char at) {

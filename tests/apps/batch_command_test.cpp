@@ -166,7 +166,7 @@ TEST(BatchCommand, ALogWithoutAModelIsSaidBeforeAnythingIsDone) {
   EXPECT_NE(refused({"day_1=" + world.model()}).find("runs/day_2/run_1.csv: 2 of 4 logs have no model"),
             std::string::npos);
   EXPECT_NE(
-      refused({world.model(), "day_3=" + world.model()}).find("no log lies below a folder of that name"),
+      refused({world.model(), "day_3=" + world.model()}).find("no log is below a folder of that name"),
       std::string::npos);
   EXPECT_NE(refused({world.model(), world.model()}).find("twice"), std::string::npos);
   EXPECT_NE(refused({"=" + world.model()}).find("give DIR=MODEL"), std::string::npos);
@@ -202,7 +202,7 @@ TEST(BatchCommand, TwoBatchesIntoOneFolderAreRefusedAndWaitWaits) {
   ASSERT_EQ(::flock(lock, LOCK_EX | LOCK_NB), 0);
   const ProgramRun second = run_program(world.command(out));
   EXPECT_EQ(second.status, 3);
-  EXPECT_NE(second.err.find("another batch is writing there"), std::string::npos) << second.err;
+  EXPECT_NE(second.err.find("another batch is writing to this folder"), std::string::npos) << second.err;
   ::close(lock);
   EXPECT_EQ(run_program(world.command(out, {"--wait"})).status, 0);
 }

@@ -137,12 +137,12 @@ TEST_F(GoldenAccept, WhatDiffersOnlyInNumbersCanBeTakenAlone) {
   golden_.edit("confidence = 0.", "confidence = 0.0");  // of the first event
   const ProgramRun check = golden_.run("check");
   EXPECT_EQ(check.status, 1);
-  EXPECT_TRUE(has(check.out, "4 different (2 also in what is found)")) << check.out;
+  EXPECT_TRUE(has(check.out, "4 different (2 also in the findings)")) << check.out;
   const ProgramRun run = golden_.run("accept", {"--same-verdict"});
   EXPECT_EQ(run.status, 1) << run.err;
   EXPECT_TRUE(has(run.out, "found in: locked_1.csv, payload_change.csv")) << run.out;
   EXPECT_TRUE(has(run.out, "Accepted: collision_1.csv, ")) << run.out;
-  EXPECT_TRUE(has(golden_.run("check").out, "2 different (2 also in what is found)"));
+  EXPECT_TRUE(has(golden_.run("check").out, "2 different (2 also in the findings)"));
   const std::string model = golden_.outside("new.model");
   write_file(model, read_file(golden_.file("", "model-")));
   std::filesystem::copy_file(golden_.file("", "cases-"), case_base_path(model));

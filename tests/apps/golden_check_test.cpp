@@ -44,7 +44,7 @@ TEST(GoldenCheck, NamesAMissingAndAnUnexpectedEvent) {
   EXPECT_EQ(run.status, 1) << run.err;
   EXPECT_TRUE(has(run.out, "- event collision joint 1: onset 6.")) << run.out;
   EXPECT_TRUE(has(run.out, "+ event locked joint 1: onset 6."));
-  EXPECT_TRUE(has(run.out, "8 of 9 as expected, 1 different (1 also in what is found), 0 damaged."));
+  EXPECT_TRUE(has(run.out, "8 of 9 as expected, 1 different (1 also in the findings), 0 damaged."));
 }
 
 /// Puts `value` for dq2 at 3.212 s into the expected trace of locked_1, and names the new trace in

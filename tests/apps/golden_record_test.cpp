@@ -60,10 +60,10 @@ TEST_F(GoldenRecord, UsesALogThatIsInTheFolderWhereItIs) {
 
 TEST_F(GoldenRecord, SaysWhyNothingIsIdentified) {
   EXPECT_TRUE(
-      has(record(made_, {log("locked_1.csv")}).out, "identification: none, none of the logs is healthy"));
+      has(record(made_, {log("locked_1.csv")}).out, "identification: none, no log was found healthy"));
   const ProgramRun run =
       record(golden_.outside("other"), {log("healthy_quintic.csv"), "--no-identification"});
-  EXPECT_TRUE(has(run.out, "identification: none, not asked for")) << run.out;
+  EXPECT_TRUE(has(run.out, "identification: none, not requested")) << run.out;
   EXPECT_FALSE(has(read_file(golden_.outside("other") + "/golden.toml"), "[identification]"));
 }
 

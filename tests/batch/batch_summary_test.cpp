@@ -56,7 +56,7 @@ TEST(BatchSummary, TextNamesTheFirstUnusableLogsWithTheirReasonsAndCountsTheOthe
   EXPECT_NE(text.find("not diagnosed: cut/1.csv: row 3 is cut\n"), std::string::npos) << text;
   EXPECT_NE(text.find("not diagnosed: cut/5.csv: row 3 is cut\n"), std::string::npos) << text;
   EXPECT_EQ(text.find("cut/6.csv"), std::string::npos) << text;
-  EXPECT_NE(text.find("and 2 more without a diagnosis; index.csv has the reason of each\n"),
+  EXPECT_NE(text.find("and 2 more without a diagnosis; index.csv lists the reason of each\n"),
             std::string::npos)
       << text;
 }

@@ -65,7 +65,7 @@ TEST(ChooseModels, LogsWithoutAModelUnknownFoldersAndDoublesAreRefused) {
   EXPECT_NE(refusal({"runs/line1/a.csv", "runs/line2/b.csv", "c.csv"}, {"line1"})
                 .find("runs/line2/b.csv: 2 of 3 logs have no model"),
             std::string::npos);
-  EXPECT_NE(refusal({"runs/line1/a.csv"}, {"", "lin1"}).find("no log lies below a folder of that name"),
+  EXPECT_NE(refusal({"runs/line1/a.csv"}, {"", "lin1"}).find("no log is below a folder of that name"),
             std::string::npos);
   EXPECT_NE(refusal({"runs/line1/a.csv"}, {"line1", "./line1"}).find("is given twice for folder"),
             std::string::npos);

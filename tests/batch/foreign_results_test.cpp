@@ -74,7 +74,7 @@ TEST_F(ForeignResults, ANameThatIsNoneInTheFolderIsRefused) {
                                   std::string("/etc/hosts"), std::string("a\nb"), std::string("a\0b", 3)}) {
     entry_.row.result = name;
     write_part();
-    expect_refused(".batch/journal", "no name of a file in this folder");
+    expect_refused(".batch/journal", "not the name of a file in this folder");
   }
   entry_.row.result = "runs_a.csv-0123456789ab";
   for (const char* log : {"../a.csv", "/home/a.csv", "runs/../../a.csv"}) {
@@ -87,7 +87,7 @@ TEST_F(ForeignResults, ANameThatIsNoneInTheFolderIsRefused) {
 TEST_F(ForeignResults, AResultWithoutANameHasNoFiles) {
   entry_.row.result = "";
   write_part();
-  expect_refused(".batch/journal", "no name of a file");
+  expect_refused(".batch/journal", "not the name of a file");
 }
 
 TEST_F(ForeignResults, APositionOutsideOfTheListIsRefused) {

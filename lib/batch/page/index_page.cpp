@@ -196,8 +196,9 @@ std::string index_table(const std::vector<BatchRow>& rows, bool pages) {
   for (std::size_t i = 0; i < count; ++i) text += table_row(rows[i], i + 1, pages);
   text += "</tbody></table>\n";
   if (count < rows.size())
-    text += fmt::format("<p>The first {} of {} logs; a script shows all, as index.csv does.</p>\n", count,
-                        rows.size());
+    text += fmt::format(
+        "<p>The first {} of {} logs; with scripts enabled this page shows all, as does index.csv.</p>\n",
+        count, rows.size());
   return text + "</noscript>\n";
 }
 
