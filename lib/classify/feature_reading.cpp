@@ -63,7 +63,7 @@ FeatureReading read_feature(std::span<const EpisodeFeature> list, std::size_t wh
     case FeatureRole::size:
       return read_size(list, which, features, usual, chain);
     case FeatureRole::strength:
-      return {"log likelihood of the fault over a healthy robot", "nats", elementary::exp(x) - 1.0};
+      return {"log-likelihood ratio of the fault to a healthy robot", "nats", elementary::exp(x) - 1.0};
     case FeatureRole::duration:
       return {"time from onset to end", "s", elementary::exp(x)};
     case FeatureRole::residual:

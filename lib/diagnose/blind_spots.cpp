@@ -30,7 +30,7 @@ std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity) {
   std::vector<std::string> spots;
   if (torque == TorqueMeaning::measured)
     spots.push_back(
-        "The logged torque is measured, so a lost or added torque is inside it: free-swinging joints and "
+        "The logged torque is measured, so it includes a lost or added torque: free-swinging joints and "
         "torque loss cannot be seen.");
   if (torque == TorqueMeaning::current)
     spots.push_back(
@@ -46,7 +46,7 @@ std::string unjudged_words(const UnjudgedStretch& stretch, const LogFacts& log) 
   const double period_s = log.sample_period_s;
   const std::string end = stretch.end_s == log.end_s ? ", the end of the log" : "";
   if (stretch.share < 1.0)
-    return fmt::format("{} could {}be judged in {:.0f} % of the time from {} to {}{}: {} again and again",
+    return fmt::format("{} could {}be judged in {:.0f} % of the time from {} to {}{}: {}, repeatedly",
                        stretch.joint == 0 ? std::string("no joint") : fmt::format("joint {}", stretch.joint),
                        stretch.joint == 0 ? "" : "not ", kPercentOfTime * stretch.share,
                        time_text(stretch.start_s, period_s), time_text(stretch.end_s, period_s), end,
@@ -90,7 +90,7 @@ std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relat
         relations[i].joint + 1,
         drive ? "measured torque follows the commanded one" : "commanded torque follows reference and motion",
         drive ? "commanded and measured torque" : "references, motion and torque",
-        drive ? "small faults of the drive" : "faults of control and of who commands"));
+        drive ? "small faults of the drive" : "faults of the controller and of the source of commands"));
   }
   return spots;
 }
@@ -133,17 +133,17 @@ std::vector<std::string> rough_spots(const std::vector<double>& roughness) {
     if (roughness[j] > 1.0)
       joints += fmt::format("{}joint {} {:.2g}", joints.empty() ? "" : ", ", j + 1, roughness[j]);
   if (joints.empty()) return {};
-  return {fmt::format(
-      "The model misses more torque in this log than in the learned ones (times theirs: {}). The sizes "
-      "below are those of logs like the learned ones; here faults of these joints must be about so "
-      "many times larger.",
-      joints)};
+  return {
+      fmt::format("The torque residual of this log exceeds that of the learned logs (by the factors: {}). "
+                  "The sizes below hold for logs like the learned ones; in this log, faults of these joints "
+                  "must be larger by about this factor.",
+                  joints)};
 }
 
 std::string reach_text(const Reach& reach, const Chain& chain) {
   const FaultDescription& fault = describe(reach.label.kind);
   if (fault.size_count == 0) return "";
-  if (!std::isfinite(reach.size)) return "not surely";
+  if (!std::isfinite(reach.size)) return "at any size";
   const bool turns = chain.geometry[reach.label.joint - 1].kind == AxisKind::revolute;
   const SizeMeasure measure = fault.sizes().back().feature;
   if (measure == SizeMeasure::torque_share) return fmt::format("{:.0f} %", 100.0 * reach.size);
@@ -161,7 +161,7 @@ std::vector<std::string> reach_sentences(const std::vector<Reach>& reach, const 
     }
     if (!joints.empty())
       sentences.push_back(
-          fmt::format("Smaller than this, \"{}\" may be missed in a log like the healthy ones: {}.",
+          fmt::format("Below these sizes, \"{}\" may be missed in a log like the healthy ones: {}.",
                       describe(static_cast<FaultKind>(k)).heading, joints));
   }
   return sentences;

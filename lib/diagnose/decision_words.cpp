@@ -32,18 +32,18 @@ std::string reason_in_words(const Decision& decision, const DecisionBasis& basis
   const Episode& episode = basis.episode;
   switch (decision.reason) {
     case DecisionReason::networks_agree:
-      return fmt::format("both networks say {}", words(decision.label));
+      return fmt::format("both networks name {}", words(decision.label));
     case DecisionReason::votes_settle:
       return fmt::format("{}; {} similar cases{} and the opinions give {} {:.0f} % of the votes",
                          disagreement(episode), basis.votes.precedents.size(), if_simulated(basis.votes),
                          words(decision.label), 100.0 * decision.confidence);
     case DecisionReason::evidence_alone:
-      return "networks and cases settle nothing; this fault explains the log best";
+      return "networks and cases give no decision; this fault explains the log best";
     case DecisionReason::log_excludes:
-      return fmt::format("networks or cases say {}, which explains the log much worse than {}",
+      return fmt::format("networks or cases name {}, which explains the log much worse than {}",
                          words(decision.voted), words(decision.label));
     case DecisionReason::no_known_form:
-      return "every known fault leaves far more of the motion unexplained than noise does";
+      return "under every known fault the residual of the motion is far larger than noise";
   }
   return "";
 }
@@ -60,7 +60,7 @@ std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes
   }
   for (const Neighbour& n : votes.precedents)
     if (n.found->outcome == CaseOutcome::rejected && n.found->decision == decision.label)
-      warnings.push_back(fmt::format("case {} (similarity {:.2f}) was also called {} and that was wrong",
+      warnings.push_back(fmt::format("case {} (similarity {:.2f}) was also diagnosed as {}, wrongly",
                                      n.found->id, n.similarity, words(decision.label)));
   return warnings;
 }

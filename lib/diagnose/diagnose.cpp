@@ -72,7 +72,7 @@ void note_doubt(const ReadingDoubt& doubt, Issues& issues) {
   const bool is_of_columns = doubt.cure.ends_with("[log.columns]");
   issues.add(make_issue(
       kMisreadLog, Severity::severe,
-      fmt::format("the log does not fit this model; it looks as if {}; {}{}", doubt.what, doubt.cure,
+      fmt::format("the log does not match this model; it looks as if {}; {}{}", doubt.what, doubt.cure,
                   is_of_columns
                       ? " of a robot file for this log and convert it: faultline convert LOG OUT --robot"
                       : "")));
@@ -145,12 +145,11 @@ void question_faults(LogSource& judged, bool has_log_rows, const Model& model,
   const std::optional<ReadingChange> change = question_change(judged, {model.robot, model.motion}, onset_s);
   if (!change) return;
   const std::int64_t row = has_log_rows ? change->row : 0;
-  issues.add(
-      {kChangedColumns, "", Severity::severe,
-       fmt::format("{}from about {:.4g} s on the log looks as if {}, and before it does not; cut the log "
-                   "there, or mend the columns",
-                   row > 0 ? fmt::format("row {}: ", row) : "", change->at_s, change->what),
-       row, change->at_s, 1});
+  issues.add({kChangedColumns, "", Severity::severe,
+              fmt::format("{}from about {:.4g} s on the log looks as if {}, and before it does not; cut the "
+                          "log there, or correct the columns",
+                          row > 0 ? fmt::format("row {}: ", row) : "", change->at_s, change->what),
+              row, change->at_s, 1});
 }
 
 /// Makes a healthy verdict inconclusive if a joint could not be compared with a reference.
@@ -158,7 +157,8 @@ void doubt_what_was_not_tracked(const std::vector<int>& joints, Diagnosis& diagn
   if (diagnosis.verdict != Verdict::healthy || joints.empty()) return;
   diagnosis.verdict = Verdict::inconclusive;
   diagnosis.verdict_reason = fmt::format(
-      "joint {} could not be held against a reference in this log; the others follow theirs", joints.front());
+      "joint {} could not be compared with a reference in this log; the other joints follow their references",
+      joints.front());
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ class Alternatives {
 };
 
 void add_opinions(Alternatives& alternatives, const Episode& episode) {
-  alternatives.add(episode.mlp.label, "the MLP says so");
-  alternatives.add(episode.rbfn.label, "the RBFN says so");
+  alternatives.add(episode.mlp.label, "named by the MLP");
+  alternatives.add(episode.rbfn.label, "named by the RBFN");
 }
 
 void add_votes(Alternatives& alternatives, const Votes& votes) {
@@ -59,7 +59,7 @@ void add_pushed_joints(Alternatives& alternatives, const MonitoredEpisode& obser
   for (int j = 0; j < joints; ++j)
     if (push(j) > kLeastPush * push(claim.joint - 1))
       alternatives.add({FaultKind::collision, j + 1},
-                       "the push reached this joint too, as one at the tip does");
+                       "the push also acted on this joint, as a push at the tip does");
 }
 
 /// Lists what a fault could also be: the labels with the best evidence and nearly the best, the opinions of
@@ -70,7 +70,7 @@ std::vector<Alternative> alternatives_to(const DecidedEpisode& decided, const Mo
   Alternatives alternatives(decision.label);
   if (basis.likeliest.kind != FaultKind::unknown) alternatives.add(basis.likeliest, "explains the log best");
   for (const FaultLabel& label : basis.as_likely)
-    alternatives.add(label, basis.likeliest.kind == FaultKind::unknown ? "comes nearest of the known faults"
+    alternatives.add(label, basis.likeliest.kind == FaultKind::unknown ? "is the nearest of the known faults"
                                                                        : "explains the log almost as well");
   add_opinions(alternatives, basis.episode);
   add_votes(alternatives, basis.votes);
@@ -82,7 +82,7 @@ std::vector<Alternative> alternatives_to(const DecidedEpisode& decided, const Mo
 std::vector<Alternative> alternatives_to(const SampleAlarm& alarm) {
   Alternatives alternatives(alarm.episode.label);
   for (const Opinion& opinion : {alarm.opinions.mlp, alarm.opinions.rbfn})
-    alternatives.add(opinion.label, "one network alone says so");
+    alternatives.add(opinion.label, "named by one network alone");
   return alternatives.list;
 }
 
@@ -109,21 +109,21 @@ std::vector<EvidenceItem> finding_evidence(const DecidedEpisode& decided, const 
   items.push_back(remark("decision", reason_in_words(decision, basis)));
   for (std::string& warning : warnings_of_cases(decision, basis.votes))
     items.push_back(remark("warning", std::move(warning)));
-  items.push_back(
-      {"log_likelihood_ratio", basis.episode.evidence, "nats",
-       fmt::format("log likelihood of the fault over a healthy robot (alarm from {:.0f} on)", basis.limit)});
+  items.push_back({"log_likelihood_ratio", basis.episode.evidence, "nats",
+                   fmt::format("log-likelihood ratio of the fault to a healthy robot (alarm from {:.0f} on)",
+                               basis.limit)});
   if (decision.label.joint > 0)
     if (std::string size = size_words(decided, model); !size.empty())
       items.push_back(remark("size", std::move(size)));
   const auto label = std::find_if(basis.evidence.begin(), basis.evidence.end(),
                                   [&](const LabelEvidence& e) { return e.label == decided.decision.label; });
   if (label != basis.evidence.end() && std::isfinite(label->left))
-    items.push_back(
-        {"left_over", label->left, "times noise",
-         fmt::format("what {} leaves of the motion (1 is noise)", label_text(label->label, " at joint "))});
+    items.push_back({"left_over", label->left, "times noise",
+                     fmt::format("residual of the motion under {} (1 is noise)",
+                                 label_text(label->label, " at joint "))});
   if (decision.label.kind == FaultKind::unknown)
     items.push_back({"misfit", observed.fault.misfit, "nats",
-                     "by which a change of any form explains the log better than the nearest known fault"});
+                     "by which a free form explains the log better than the nearest known fault"});
   for (const JointResidual& residual : observed.residuals)
     if (std::isfinite(residual.velocity_rms))
       items.push_back({fmt::format("mlp_velocity_residual_{}", residual.joint), residual.velocity_rms,
@@ -170,12 +170,11 @@ FaultFinding finding_of(const LastingFriction& fault, const Chain& chain) {
   finding.end_s = fault.end_s;
   finding.confidence = kSureOfFriction;
   finding.decided_by = DecidedBy::evidence;
-  finding.evidence = {
-      {item.name, item.value, item.unit,
-       fmt::format("{} against the robot that was identified ({} to {} {} with 95 %, normal within {} {}), "
-                   "from the first row on",
-                   item.what, value_text(item.ci95[0]), value_text(item.ci95[1]), item.unit,
-                   value_text(item.normal_range), item.unit)}};
+  finding.evidence = {{item.name, item.value, item.unit,
+                       fmt::format("{} relative to the identified robot ({} to {} {} with 95 %, normal "
+                                   "within {} {}), from the first row on",
+                                   item.what, value_text(item.ci95[0]), value_text(item.ci95[1]), item.unit,
+                                   value_text(item.normal_range), item.unit)}};
   finding.next_check = next_check_for(finding.label);
   return finding;
 }

@@ -99,8 +99,8 @@ std::vector<std::string> least_size_sentences(const Model& model) {
   }
   if (text.empty()) return {};
   return {
-      "Smaller than this, a change is listed as a small one and not reported as a fault ([least_size] of the "
-      "robot file): " +
+      "Below these sizes, a change is listed as small and not reported as a fault ([least_size] of the robot "
+      "file): " +
       text + "."};
 }
 

@@ -32,8 +32,9 @@ std::string why_too_rough(const std::vector<double>& roughness) {
   const auto worst = std::max_element(roughness.begin(), roughness.end());
   if (worst == roughness.end() || *worst < kRough) return "";
   return fmt::format(
-      "no fault was found, but the model misses {:.2g} times as much torque at joint {} as in the learned logs, "
-      "so that a fault may hide there; where the robot is so on purpose, learn a model with such logs",
+      "no fault was found, but the torque residual is {:.2g} times as large at joint {} as in the learned "
+      "logs, so that a fault there may be missed; if the robot is meant to be so, learn a model with such "
+      "logs",
       *worst, worst - roughness.begin() + 1);
 }
 
@@ -45,8 +46,9 @@ std::string why_too_wild(const std::vector<JointResidual>& residuals) {
   });
   if (worst == residuals.end() || !(worst->velocity_peak > kWild)) return "";
   return fmt::format(
-      "no fault explains the log, but joint {} moved at {:.3f} s as no fault-free robot does ({:.3g} times the "
-      "healthy residual); look at that moment: a reading that jumped or stood still, or rows that are missing",
+      "no fault explains the log, but the motion of joint {} at {:.3f} s is not that of a fault-free robot "
+      "({:.3g} times the healthy residual); check that moment for a position that jumped or stood still, or "
+      "for missing rows",
       worst->joint, worst->velocity_peak_s, worst->velocity_peak);
 }
 
@@ -54,7 +56,7 @@ std::string why_too_wild(const std::vector<JointResidual>& residuals) {
 std::string why_too_damaged(const Issues& issues) {
   for (const Issue& issue : issues.all())
     if (issue.severity == Severity::severe)
-      return fmt::format("no fault was found, but the log is not sound: {}", issue.message);
+      return fmt::format("no fault was found, but the log has a severe issue: {}", issue.message);
   return "";
 }
 
@@ -62,8 +64,8 @@ std::string why_too_damaged(const Issues& issues) {
 std::string why_too_doubtful(const ModelFacts& model) {
   if (model.grave_doubts.empty()) return "";
   return fmt::format(
-      "no fault was found, but this model cannot call a log healthy: {}; learn one from logs that are surely "
-      "healthy",
+      "no fault was found, but this model cannot call a log healthy: {}; learn a model from logs that are "
+      "known to be healthy",
       model.grave_doubts.front());
 }
 
@@ -77,8 +79,8 @@ std::string why_not_judged(const LogFacts& log) {
   const std::string more =
       others == 0 ? "" : fmt::format(" (and {} other stretch{})", others, others == 1 ? "" : "es");
   return fmt::format(
-      "no fault was found where the log could be judged, but {}{}; a fault may hide where a joint is not judged "
-      "for longer than {:.2g} s, in more than a quarter of {:.2g} s, or at the end",
+      "no fault was found in the judged part of the log, but {}{}; a fault may be missed if a joint is not "
+      "judged for longer than {:.2g} s, in more than a quarter of {:.2g} s, or at the end",
       unjudged_words(*longest, log), more, judged_moment_s(log.sample_period_s),
       judged_window_s(log.sample_period_s));
 }
@@ -112,7 +114,8 @@ std::string judged_part(const LogFacts& log) {
                                ? fmt::format("{} of {} rows", log.rows_unjudged, log.rows_read)
                                : "a few moments";
   return fmt::format(
-      "the log, but for {} that could not be judged, never more than {:.2g} s at a time or a quarter of {:.2g} s",
+      "the log except {} that could not be judged, never more than {:.2g} s at a time or a quarter of {:.2g} "
+      "s",
       rows, judged_moment_s(log.sample_period_s), judged_window_s(log.sample_period_s));
 }
 
@@ -125,16 +128,16 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
   if (const std::string rest = why_at_rest(diagnosis.log); !rest.empty()) return rest;
   if (power < kLeastPower)
     return fmt::format(
-        "no fault was found, but the model finds only {:.0f} % of simulated faults; learn one from healthy "
-        "logs that resemble each other more",
+        "no fault was found, but the model finds only {:.0f} % of simulated faults; learn a model from "
+        "healthy logs that resemble each other more",
         kVerdictPercent * power);
   if (const std::string rough = why_too_rough(diagnosis.roughness); !rough.empty()) return rough;
   if (const std::string wild = why_too_wild(diagnosis.residuals); !wild.empty()) return wild;
   const std::string far = beyond_normal(diagnosis.condition, kFarBeyond);
   if (far.empty()) return "";
   return fmt::format(
-      "no moment was found at which a fault begins, but the robot is not as it was when healthy logs were "
-      "recorded: {}; where that is so on purpose, learn a model from logs of today",
+      "no onset of a fault was found, but the robot has changed since the healthy logs were recorded: {}; if "
+      "the change is intended, learn a model from recent logs",
       far);
 }
 
@@ -153,7 +156,7 @@ std::string why_inconclusive(const LogFacts& log, double model_period_s) {
                        kFewestRows);
   if (static_cast<double>(log.judgeable_rows) < kFewestJudgeable * static_cast<double>(log.rows_used))
     return fmt::format("only {} of {} rows {}", log.judgeable_rows, log.rows_used,
-                       log.is_tracked ? "could be held against a reference that moves as in the healthy logs"
+                       log.is_tracked ? "could be compared with a reference that moves as in the healthy logs"
                                       : "have position and torque of every joint");
   return "";
 }
@@ -173,7 +176,7 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
   number_by_onset(diagnosis.faults);
   if (const Issue* scaled = diagnosis.log.issues.find(kScaledMotion); scaled && !diagnosis.faults.empty()) {
     diagnosis.verdict = Verdict::inconclusive;
-    diagnosis.verdict_reason = "what the log shows may be its own: " + scaled->message;
+    diagnosis.verdict_reason = "the deviations may come from the log itself: " + scaled->message;
     diagnosis.faults.clear();
     return;
   }
@@ -189,7 +192,7 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
                                   : "the identified robot explains " + judged_part(diagnosis.log);
   diagnosis.verdict_reason = count > 0 ? counted(static_cast<long long>(count), "fault") + " found" : healthy;
   if (const std::string beyond = beyond_normal(diagnosis.condition); count == 0 && !beyond.empty())
-    diagnosis.verdict_reason += ", but for what is beyond its normal range: " + beyond;
+    diagnosis.verdict_reason += "; beyond its normal range: " + beyond;
   if (const std::size_t small = diagnosis.small_changes.size(); count == 0 && small > 0)
     diagnosis.verdict_reason += "; " + counted(static_cast<long long>(small), "change") +
                                 " found, too small to be reported as a fault";

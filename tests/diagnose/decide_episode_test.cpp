@@ -41,7 +41,7 @@ TEST(DecideEpisode, NetworksThatAgreeNameTheFault) {
   EXPECT_EQ(finding.label, kLocked2);
   EXPECT_EQ(finding.decided_by, DecidedBy::agreement);
   EXPECT_NEAR(finding.confidence, 0.8, 1e-12);
-  EXPECT_EQ(item(finding, "decision")->text, "both networks say locked at joint 2");
+  EXPECT_EQ(item(finding, "decision")->text, "both networks name locked at joint 2");
   EXPECT_EQ(item(finding, "warning"), nullptr);
   EXPECT_EQ(finding.precedents.size(), 3u);
   EXPECT_TRUE(finding.could_also_be.empty());
@@ -103,7 +103,7 @@ TEST(DecideEpisode, AFaultOfNoKnownFormIsUnknownWhateverNetworksSay) {
   const FaultFinding finding = decide_episode(episode, model, base_of(model, episode, kLocked2, 3));
   EXPECT_EQ(finding.label, kUnknown);
   ASSERT_NE(alternative(finding, kLocked2), nullptr);
-  EXPECT_EQ(alternative(finding, kLocked2)->why, "comes nearest of the known faults");
+  EXPECT_EQ(alternative(finding, kLocked2)->why, "is the nearest of the known faults");
   EXPECT_EQ(item(finding, "misfit")->value, 512.0);
 }
 

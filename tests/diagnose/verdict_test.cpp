@@ -259,7 +259,7 @@ TEST(Verdict, ALogThatTheModelMissesManyTimesMoreOfIsNotCalledHealthy) {
   diagnosis.roughness = {1.0, 2.4, 4.8};
   settle_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
-  EXPECT_NE(diagnosis.verdict_reason.find("4.8 times as much torque at joint 3"), std::string::npos);
+  EXPECT_NE(diagnosis.verdict_reason.find("4.8 times as large at joint 3"), std::string::npos);
   diagnosis.roughness[2] = 2.4;
   settle_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
@@ -314,8 +314,8 @@ TEST(Verdict, AJointThatWasNotJudgedForLongForbidsHealthyAndStandsInTheReason) {
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_EQ(
       diagnosis.verdict_reason,
-      "no fault was found where the log could be judged, but joint 2 could not be judged from 7.000 s to "
-      "10.000 s, the end of the log: its torque is missing (and 1 other stretch); a fault may hide where a "
+      "no fault was found in the judged part of the log, but joint 2 could not be judged from 7.000 s to "
+      "10.000 s, the end of the log: its torque is missing (and 1 other stretch); a fault may be missed if a "
       "joint is not judged for longer than 0.5 s, in more than a quarter of 5 s, or at the end");
 }
 

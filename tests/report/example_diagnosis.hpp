@@ -107,7 +107,7 @@ inline Diagnosis hostile_diagnosis() {
   f.precedents = {{7, {FaultKind::collision, 1}, 0.41, "]]> \"done\"\x07\nnext line"}};
   f.precedents[0].origin_text = "confirmed in the field by <b>|\x1b[31m\nA. & B.</b>";
   f.precedents[0].alike = {{"a", "<i>|x|\x07", "\"m\"", 1.0, 2.0, 0.5}};
-  f.could_also_be = {{{FaultKind::collision, 1}, "the MLP says so"}};
+  f.could_also_be = {{{FaultKind::collision, 1}, "named by the MLP"}};
   f.next_check = next_check_for(f.label);
   d.faults.push_back(f);
   number_by_onset(d.faults);

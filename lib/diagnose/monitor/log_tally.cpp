@@ -27,12 +27,12 @@ bool can_track(const Log& segment, const Model& model) {
 
 std::string why_not_judged(const Model& model) {
   const std::string references =
-      "has no references (q_ref1.. or dq_ref1..) of joints that the model knows to follow them";
+      "has no references (q_ref1.. or dq_ref1..) of joints that follow them according to the model";
   if (!model.has_mechanics())
     return references + ", and the model \"" + model.name +
            "\" was learned from logs without torque; map the columns in [log.columns] of the robot file";
   return "has no torque (tau1..tau" + std::to_string(model.robot.joints()) +
-         "), without which this model can judge no fault, and " + references +
+         "), without which this model cannot find faults, and " + references +
          "; map the columns in [log.columns] of the robot file";
 }
 

@@ -54,11 +54,10 @@ LogRate log_rate(LogSource& log, const Model& model) {
 }
 
 Issue resampled_issue(const LogRate& rate, const Model& model) {
-  return make_issue(
-      kResampled, Severity::warning,
-      fmt::format("the log has a sample every {:.4g} s, the model was learned from logs with one "
-                  "every {:.4g} s; it was brought to the model's rate and judged there",
-                  rate.period_s, model.sample_period_s));
+  return make_issue(kResampled, Severity::warning,
+                    fmt::format("the log has a sample every {:.4g} s, the model was learned from logs with "
+                                "one every {:.4g} s; it was resampled to the rate of the model",
+                                rate.period_s, model.sample_period_s));
 }
 
 std::unique_ptr<LogSource> at_model_rate(LogSource& log, const Model& model) {

@@ -49,11 +49,11 @@ std::vector<ColumnReading> clock_readings(double ratio, double sample_period_s) 
   ColumnReading reading;
   reading.what =
       in_ms ? "the time is in milliseconds"
-            : fmt::format("its time runs {:.4g} times too {}: the motion is that of a row every {:.4g} s",
+            : fmt::format("its time runs {:.4g} times too {}: the motion fits a row every {:.4g} s",
                           std::max(ratio, 1.0 / ratio), ratio > 1.0 ? "fast" : "slow", sample_period_s);
   reading.cure =
       in_ms ? "write unit = \"ms\" for t into [log.columns]"
-            : fmt::format("write scale = {:.6g} for t into [log.columns], or mend the clock of the log",
+            : fmt::format("write scale = {:.6g} for t into [log.columns], or correct the clock of the log",
                           1.0 / ratio);
   reading.apply = [ratio](Log& log) {
     for (double& t : log.time) t /= ratio;
@@ -71,7 +71,7 @@ std::vector<ColumnReading> delay_readings(const Log& rows) {
     for (const int shift : {step, -step}) {
       out.push_back({fmt::format("the torques are logged about {:.2g} s too {}", std::abs(shift) * period,
                                  shift > 0 ? "late" : "early"),
-                     "record torque and motion by one clock, or shift the torque before it is diagnosed",
+                     "record torque and motion with one clock, or shift the torque before the diagnosis",
                      [shift](Log& log) {
                        for (std::vector<double>& tau : log.tau) {
                          const std::vector<double> logged = tau;
@@ -290,7 +290,7 @@ ReadingDoubt other_torque(const Fit& fit, bool all) {
   const bool enough = all ? other == told : poor <= (told > 2 ? 1 : 0) && 2 * other >= told;
   if (!enough || other < std::min(fit.joints(), 2)) return {};
   return {fmt::format("the torques are another quantity or unit, such as a current, or a gear ratio is "
-                      "missing: they are {} times what this robot needs for its motion",
+                      "missing: they are {} times the torques that this robot needs for its motion",
                       fmt::join(ratios, ", ")),
           "write unit or scale (torque of one logged unit) of each tau into [log.columns]"};
 }
@@ -302,8 +302,8 @@ ReadingDoubt other_velocity(const Fit& fit) {
       factors.push_back(
           fmt::format("dq{0} is {1:.4g} times the derivative of q{0}", j + 1, fit.velocity_factor[j]));
   if (factors.empty()) return {};
-  return {fmt::format("position, velocity and time do not belong together: {}", fmt::join(factors, ", ")),
-          "write their units into [log.columns], or mend the clock of the log"};
+  return {fmt::format("position, velocity and time are inconsistent: {}", fmt::join(factors, ", ")),
+          "write their units into [log.columns], or correct the clock of the log"};
 }
 
 ReadingDoubt other_robot(const Beginning& beginning) {
@@ -312,11 +312,10 @@ ReadingDoubt other_robot(const Beginning& beginning) {
   for (int j = 0; j < joints; ++j)
     if (beginning.is_told(j) && best_misfit(beginning.ever[j]) > kNeverNear) far.push_back(j + 1);
   if (far.empty() || static_cast<int>(far.size()) < std::min(joints, 2)) return {};
-  return {
-      fmt::format("its torques are at no moment those that this robot needs for its motion (joints {}), nor "
-                  "with other units, signs or columns: another robot, tool or recording",
-                  fmt::join(far, ", ")),
-      "take the model and the robot file of the robot that was recorded"};
+  return {fmt::format("its torques never match the motion of this robot (joints {}), not even with other "
+                      "units, signs or columns: another robot, tool or recording",
+                      fmt::join(far, ", ")),
+          "use the model and the robot file of the recorded robot"};
 }
 
 }  // namespace

@@ -24,25 +24,25 @@ bool loses_torque(FaultKind kind) { return column_kind(kind) == FaultKind::torqu
 
 std::string what_strayed(const RelationEpisode& episode, const FaultClaim& claim, const std::string& size) {
   if (loses_torque(claim.kind))
-    return fmt::format("the measured torque of joint {} is {:.0f} % less than what was commanded",
+    return fmt::format("the measured torque of joint {} is {:.0f} % below the commanded torque",
                        episode.joint + 1, 100.0 * claim.size[0]);
   if (episode.kind == RelationKind::actuator)
-    return fmt::format("the measured torque of joint {} is not what was commanded: {} on average",
+    return fmt::format("the measured torque of joint {} differs from the commanded torque by {} on average",
                        episode.joint + 1, size);
   return fmt::format(
-      "the commanded torque of joint {} is not what the controller makes of reference and motion: {} on average",
+      "the commanded torque of joint {} differs from the control law of the healthy logs by {} on average",
       episode.joint + 1, size);
 }
 
 std::string next_check_of(const RelationEpisode& episode) {
   if (episode.kind == RelationKind::actuator)
     return fmt::format(
-        "Look at the drive of joint {}: its current limit, its supply and its torque or current sensor; somebody "
-        "may have added torque behind the controller.",
+        "Look at the drive of joint {}: its current limit, its supply and its torque or current sensor; "
+        "check also whether torque is added behind the controller.",
         episode.joint + 1);
   return fmt::format(
-      "Look at what commands joint {}: another controller mode, a changed gain or filter, a feed-forward, or "
-      "somebody who writes to the same command.",
+      "Look at the controller of joint {}: another mode, a changed gain or filter, a feed-forward, or a "
+      "second program that writes the same command.",
       episode.joint + 1);
 }
 

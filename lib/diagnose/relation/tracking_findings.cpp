@@ -61,8 +61,8 @@ EvidenceItem difference(const RelationEpisode& episode, const Chain& chain) {
 
 std::string next_check_of(int joint) {
   return fmt::format(
-      "Look at motor, brake, transmission and encoder of joint {}: it stalled, lost steps, was held or slipped. "
-      "Home it before it moves on.",
+      "Look at motor, brake, transmission and encoder of joint {}: it stalled, lost steps, was held or "
+      "slipped. Home it before it moves again.",
       joint);
 }
 
@@ -77,7 +77,7 @@ FaultFinding tracking_finding(const RelationEpisode& episode, const Chain& chain
   finding.decided_by = DecidedBy::tracking;
   finding.evidence.push_back(
       {"decision", std::nan(""), "",
-       fmt::format("joint {} {}: the {} is up to {} {} off", episode.joint + 1,
+       fmt::format("joint {} {}: the {} deviates by up to {} {}", episode.joint + 1,
                    still ? "stands still while its reference moves" : "does not follow its reference",
                    what_strayed(episode), value_text(std::abs(episode.strongest)), unit_of(episode, chain))});
   finding.evidence.push_back(difference(episode, chain));
@@ -157,22 +157,23 @@ std::vector<int> joints_not_tracked(const Model& model, const std::vector<double
 std::vector<std::string> tracking_spots(const Model& model, const std::vector<double>& judged_s) {
   std::vector<std::string> spots{
       "Without torque only one thing is judged: whether each joint follows its reference as in the healthy "
-      "logs. Lost torque, friction, loads, pushes and sensor faults that the controller makes up for cannot be "
-      "seen."};
+      "logs. Lost torque, friction, loads, pushes and sensor faults that the controller compensates cannot "
+      "be seen."};
   for (int j = 0; j < model.robot.joints(); ++j) {
     const JointTracking joint = tracking_of(j, model, judged_s);
     for (const SignalRelation* relation : joint.judged) {
       const WindowLimit& window = relation->windows[relation->windows.size() / 2];
       spots.push_back(fmt::format(
-          "Joint {}: {} errors below {:.2g} {} over {:g} s are not told from healthy.", j + 1,
-          what_strayed(*relation), window.limit, unit_of(*relation, model.robot.chain), window.window_s));
+          "Joint {}: {} errors below {:.2g} {} over {:g} s cannot be distinguished from healthy motion.",
+          j + 1, what_strayed(*relation), window.limit, unit_of(*relation, model.robot.chain),
+          window.window_s));
     }
     if (!joint.is_known)
       spots.push_back(fmt::format(
           "Joint {} is not judged: the healthy logs do not show it following a reference.", j + 1));
     else if (joint.judged.empty())
       spots.push_back(fmt::format(
-          "Joint {} is not judged: its reference is missing or never changes in this log, or is nowhere like "
+          "Joint {} is not judged: its reference is missing or never changes in this log, or never resembles "
           "those of the healthy logs, or too few complete rows follow each other.",
           j + 1));
   }

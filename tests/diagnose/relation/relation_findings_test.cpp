@@ -69,7 +69,7 @@ TEST(RelationFindings, ALossIsSaidWithItsShareAndALawWithWhereToLook) {
   EXPECT_DOUBLE_EQ(item(faults[0], "torque_share")->value, 40.0);
   EXPECT_EQ(faults[1].label, (FaultLabel{FaultKind::unknown, 2}));
   EXPECT_EQ(faults[1].decided_by, DecidedBy::control_law);
-  EXPECT_NE(faults[1].next_check.find("what commands joint 2"), std::string::npos);
+  EXPECT_NE(faults[1].next_check.find("the controller of joint 2"), std::string::npos);
 }
 
 TEST(RelationFindings, TheTorqueBalancesPartOfTheEvidenceIsSaid) {

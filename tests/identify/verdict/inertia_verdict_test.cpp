@@ -41,7 +41,7 @@ TEST(InertiaVerdict, ANegativeInertiaInTheRangeOfTheLogsIsNoRobot) {
   Identification id = scara({{"a", -136.0}, {"b", 0.5}, {"c", 0.7}, {"m3", 0.5}}, 1.0);
   find_negative_inertia(id);
   EXPECT_EQ(id.status, IdentificationStatus::unexplained);
-  EXPECT_NE(id.reason.find("the inertia of joint 1 comes out as -13"), std::string::npos) << id.reason;
+  EXPECT_NE(id.reason.find("the inertia of joint 1 was estimated as -13"), std::string::npos) << id.reason;
   EXPECT_NE(id.reason.find("revolutions"), std::string::npos) << id.reason;
 }
 
