@@ -24,7 +24,7 @@ const Json& fault_with_id(const Json& diagnosis, const std::string& where, int i
   for (const Json& fault : diagnosis.at("faults"))
     if (fault.at("id") == id) return fault;
   if (diagnosis.at("faults").empty())
-    throw Error(ErrorCode::usage, where, "names no fault, so there is no case in it");
+    throw Error(ErrorCode::usage, where, "contains no fault, so it gives no case");
   throw Error(ErrorCode::usage, where,
               "has no fault " + std::to_string(id) + "; its faults are numbered 1 to " +
                   std::to_string(diagnosis.at("faults").size()));
@@ -76,7 +76,7 @@ Case case_from_json(const std::string& text, const std::string& where, int fault
   return parsed(text, where, fault_id, feature_names);
 } catch (const nlohmann::json::exception&) {
   throw Error(ErrorCode::input, where,
-              "is no JSON report; a case is made of what `faultline diagnose --json` wrote");
+              "is not a JSON report; a case is made from the output of `faultline diagnose --json`");
 } catch (const Error& error) {
   if (error.where() == where) throw;
   throw Error(ErrorCode::input, where,

@@ -8,7 +8,7 @@
 namespace faultline {
 
 FactTable condition_table(const Diagnosis& diagnosis) {
-  FactTable table{"Condition: how the robot differs from the one that was identified, no fault by itself",
+  FactTable table{"Condition: differences from the identified robot, no fault by themselves",
                   {"what", "difference", "95 % interval", "normal within", ""},
                   {}};
   for (const ConditionItem& item : diagnosis.condition)

@@ -33,13 +33,13 @@ const char* decided_words(const FaultFinding& fault) {
     case DecidedBy::criterion:
       return "the networks' fault criterion decided";
     case DecidedBy::actuator:
-      return "measured against commanded torque decided";
+      return "the difference of measured and commanded torque decided";
     case DecidedBy::control_law:
-      return "commanded torque against the control law decided";
+      return "the difference of commanded torque and control law decided";
     case DecidedBy::tracking:
-      return "the motion against its reference decided";
+      return "the difference of motion and reference decided";
     case DecidedBy::abstained:
-      return "not named: the evidence is too thin";
+      return "not named: the evidence is too weak";
   }
   return "";
 }

@@ -30,7 +30,7 @@ std::string fit_text(const Identification& id) {
   std::string text = "fit\n";
   for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
     text += fmt::format(
-        "  joint {}   R2 {:.5f}, held out {:.5f}; torque left over {:.4g} rms, {:.2g} ms late; noise of q "
+        "  joint {}   R2 {:.5f}, held out {:.5f}; torque residual {:.4g} rms, {:.2g} ms late; noise of q "
         "{:.3g}{}\n",
         j + 1, id.fit_r2[j], id.held_out_r2[j], id.residual_rms[j], 1e3 * id.torque_delay_s[j], id.q_noise[j],
         id.dq_noise.empty() ? "" : fmt::format(", of dq {:.3g}", id.dq_noise[j]));
@@ -43,7 +43,7 @@ std::string fit_text(const Identification& id) {
 std::string share_text(double share) { return std::isfinite(share) ? percent_text(share) : "-"; }
 
 std::string pattern_text(const Identification& id) {
-  std::string text = "what the torque left over repeats with, in shares of its variance\n";
+  std::string text = "patterns of the torque residual, in shares of its variance\n";
   for (std::size_t j = 0; j < id.residual_patterns.size(); ++j) {
     const ResidualPattern& p = id.residual_patterns[j];
     text += fmt::format("  joint {}   position {}, speed {}, torque {}, its value a window before {}\n",
@@ -74,7 +74,7 @@ std::string flag_line(const ParameterTrend& t) {
       fmt::format("{} changes from log to log beyond chance: {:.4g} (log {}) to {:.4g} (log {}) {}", t.name,
                   low->value, low->log + 1, high->value, high->log + 1, t.unit);
   if (t.drifts)
-    text += fmt::format("; it {} by {:.3g} a log [{:.3g}, {:.3g}]", t.slope > 0.0 ? "grows" : "falls",
+    text += fmt::format("; it {} by {:.3g} per log [{:.3g}, {:.3g}]", t.slope > 0.0 ? "grows" : "falls",
                         std::abs(t.slope), std::abs(t.slope) - 2.0 * t.slope_std,
                         std::abs(t.slope) + 2.0 * t.slope_std);
   return text;
@@ -83,9 +83,10 @@ std::string flag_line(const ParameterTrend& t) {
 }  // namespace
 
 const char* worth_words(const ModelTerm& term) {
-  if (term.kept) return "pays";
-  return term.error_after < kSeemsToPay * term.error_before ? "pays too little, or not in each log"
-                                                            : "does not pay";
+  if (term.kept) return "is kept";
+  return term.error_after < kSeemsToPay * term.error_before
+             ? "is not kept, as it lowers the residual too little or not in each log"
+             : "is not kept";
 }
 
 std::vector<std::string> trend_lines(const Identification& id) {
@@ -119,13 +120,14 @@ std::vector<std::string> excitation_lines(const Identification& id) {
       lines.push_back(fmt::format("{} does not show in the torque of this motion", p.name));
     if (!(p.own < kHardlyTold)) continue;
     hardly = true;
-    lines.push_back(
-        fmt::format("{} is hardly told from {}: only {:.2g} of what it does to the torque is its own", p.name,
-                    p.mixed_with, p.own));
+    lines.push_back(fmt::format(
+        "{} is hardly distinguishable from {}: only {:.2g} of its effect on the torque is its own", p.name,
+        p.mixed_with, p.own));
   }
   if (hardly)
-    lines.push_back(fmt::format("least told (each in the size of what it does to the torque): {}",
-                                mixture_text(id.excitation)));
+    lines.push_back(
+        fmt::format("least determined combination (each in the size of its effect on the torque): {}",
+                    mixture_text(id.excitation)));
   return lines;
 }
 

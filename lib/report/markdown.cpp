@@ -62,8 +62,7 @@ std::string similar_cases_table(const FaultFinding& f) {
     if (const std::string words = likeness_words(p, kShownFeatures); !words.empty())
       why.push_back(fmt::format("case {}, {}", p.case_id, words));
   }
-  const std::string cases =
-      table({"similar case", "similarity", "what it was", "how that is known", "what was done then"}, rows);
+  const std::string cases = table({"similar case", "similarity", "fault", "origin", "action taken"}, rows);
   if (cases.empty()) return "";
   return "**" + precedents_title(f) + "**\n\n" + cases + list("Why they are similar", why);
 }
@@ -139,8 +138,8 @@ std::string render_markdown(const Diagnosis& d) {
   text += table(condition.head, condition.rows) + residuals_table(d);
   std::vector<std::string> issues;
   for (const Issue& issue : d.log.issues.all()) issues.push_back(issue_line(issue));
-  text += list("What to know of the model", d.model.notes);
-  text += list("What was wrong with the log", issues);
+  text += list("Notes on the model", d.model.notes);
+  text += list("Issues of the log", issues);
   text += list("What this log and model cannot show", d.cannot_see);
   return text + provenance(d);
 }

@@ -44,7 +44,7 @@ std::vector<const ParameterEstimate*> listed_parameters(const Identification& id
 }
 
 FactTable validation_table(const Validation& validation) {
-  FactTable table{"Tested on simulated runs that nothing was trained on",
+  FactTable table{"Tested on simulated runs that were not used for training",
                   {"fault", "runs", "found", "right joint", "right", "right or named", "median delay"},
                   {}};
   for (const ValidationRow& row : validation.rows) {
@@ -67,7 +67,7 @@ std::vector<std::string> validation_counts(const ValidationRow& row) {
 }
 
 FactTable source_table(const Model& model) {
-  FactTable table{"Logs the model was learned from", {"log", "rows", "fault", "SHA-256"}, {}};
+  FactTable table{"Logs from which the model was learned", {"log", "rows", "fault", "SHA-256"}, {}};
   for (const ModelSource& source : model.sources)
     table.rows.push_back({source.path, std::to_string(source.rows), source.fault, source.sha256});
   return table;

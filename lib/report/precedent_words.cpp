@@ -43,8 +43,8 @@ std::string feature_value_text(double value, const std::string& unit) {
 std::string likeness_words(const Precedent& precedent, std::size_t most) {
   if (precedent.alike.empty() && precedent.unlike.empty()) return "";
   const std::string alike = list(precedent.alike, most), unlike = list(precedent.unlike, most);
-  return "alike: " + (alike.empty() ? "nothing that stands out" : alike) +
-         "; unlike: " + (unlike.empty() ? "nothing beyond what cases of one fault differ by" : unlike);
+  return "alike: " + (alike.empty() ? "no outstanding feature" : alike) + "; unlike: " +
+         (unlike.empty() ? "nothing beyond the usual difference of cases of one fault" : unlike);
 }
 
 std::string precedent_code(const Precedent& precedent) {

@@ -105,7 +105,7 @@ class FaultBlock {
 
   std::string precedent(const Precedent& p) const {
     const std::string known = p.origin_text.empty() ? "" : "; " + p.origin_text;
-    const std::string done = p.what_was_done.empty() ? "" : "; done then: " + p.what_was_done;
+    const std::string done = p.what_was_done.empty() ? "" : "; action taken: " + p.what_was_done;
     return item(fmt::format("case {}, similarity {:.2f}: {}", p.case_id, p.similarity, plain_words(p.label)) +
                 known + done) +
            more(likeness_words(p, kTextShownFeatures));
@@ -162,7 +162,7 @@ std::string bullets(const char* title, const std::vector<std::string>& lines, in
 std::string log_issues(const Diagnosis& d, int width) {
   std::vector<std::string> lines;
   for (const Issue& issue : d.log.issues.all()) lines.push_back(issue_line(issue));
-  return bullets("What was wrong with the log", lines, width);
+  return bullets("Issues of the log", lines, width);
 }
 
 /// The faults with the highest confidence first; among equals the earliest.

@@ -43,7 +43,7 @@ TEST_F(DiagnoseReports, PageAndMarkdownAreWrittenAndAreTheSameEachTime) {
   EXPECT_EQ(diagnose({"--html", second}).status, 1);
   const std::string page = read_file(first);
   EXPECT_TRUE(page == read_file(second));
-  for (const char* part : {"Identified parameters", "95 % interval", "Logs the model was learned from",
+  for (const char* part : {"Identified parameters", "95 % interval", "Logs from which the model was learned",
                            "plot-run-residual", "plot-1-evidence", "plot-1-networks", "id=\"plot-data\""})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find(folder_.path().string()), std::string::npos) << "names a folder of this machine";

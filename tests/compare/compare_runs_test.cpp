@@ -202,7 +202,7 @@ TEST(ComparisonPage, HoldsTheAnswerAndEveryJointAndNoScript) {
   const RunComparison c = compared(timed(20.0, 0.0, 1), timed(20.0, 0.3, 2, 7.9));
   const std::string page = render_comparison_html(c, {});
   EXPECT_NE(page.find("The runs differ from 7.9"), std::string::npos);
-  for (const char* part : {"Position of joint 1", "Position of joint 2, close up", "time less the first"})
+  for (const char* part : {"Position of joint 1", "Position of joint 2, close up", "minus time of the first"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_EQ(page, render_comparison_html(c, {}));

@@ -26,10 +26,10 @@ std::string times(const FaultFinding& f, double period_s) {
 
 std::string opinions(const FaultFinding& f) {
   if (!was_asked(f.mlp) && !was_asked(f.rbfn)) return "";
-  return html_table({"network", "says", "confidence"},
+  return html_table({"network", "names", "confidence"},
                     {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
                      {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}},
-                    "What both networks said");
+                    "Outputs of both networks");
 }
 
 std::string alternatives_table(const FaultFinding& f) {
@@ -65,9 +65,8 @@ std::string precedents(const FaultFinding& f) {
     why += likeness(p);
   }
   if (!why.empty())
-    why += "<p class=\"sub\">A difference of 1 is what cases of the same fault commonly differ by.</p>\n";
-  return html_table({"case", "similarity", "what it was", "how that is known", "what was done then"}, rows,
-                    precedents_title(f)) +
+    why += "<p class=\"sub\">A difference of 1 is usual between cases of the same fault.</p>\n";
+  return html_table({"case", "similarity", "fault", "origin", "action taken"}, rows, precedents_title(f)) +
          why;
 }
 
@@ -103,7 +102,7 @@ std::string html_finding(const FaultFinding& f, const std::vector<PageFigure>& f
   text += "<div class=\"columns\">\n";
   text += column(html_part("It could also be", alternatives_table(f)));
   text += column(html_part("Evidence", evidence(f)));
-  text += column(html_part("What both networks said", opinions(f)));
+  text += column(html_part("Outputs of both networks", opinions(f)));
   text += "</div>\n" + html_part(precedents_title(f).c_str(), precedents(f));
   return text + "</section>\n";
 }

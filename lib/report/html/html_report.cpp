@@ -67,9 +67,8 @@ std::string log_quality(const Diagnosis& d) {
     rows.push_back({to_string(issue.severity), issue.code, issue.channel,
                     issue.first_row > 0 ? std::to_string(issue.first_row) : "", std::to_string(issue.count),
                     std::to_string(issue.rows_dropped), issue.message});
-  const std::string table =
-      html_table({"severity", "code", "channel", "first in row", "times", "rows left out", "what"}, rows,
-                 "What was noticed");
+  const std::string table = html_table(
+      {"severity", "code", "channel", "first in row", "times", "rows left out", "what"}, rows, "Issues");
   return "<h2 id=\"log\">Log quality</h2>\n" +
          html_table({},
                     {{"rows read", std::to_string(d.log.rows_read)},
@@ -77,7 +76,7 @@ std::string log_quality(const Diagnosis& d) {
                      {"format", d.log.format},
                      {"sample period", value_text(d.log.sample_period_s) + " s"}},
                     "The log") +
-         (table.empty() ? "<p>Nothing was wrong with the log.</p>\n" : table) +
+         (table.empty() ? "<p>The log has no issues.</p>\n" : table) +
          html_part("What this log and model cannot show", html_list(d.cannot_see));
 }
 
@@ -90,9 +89,8 @@ std::string tables(const std::vector<FactTable>& list, const char* section) {
 }
 
 std::string provenance(const Diagnosis& d, const ReportDetails& details) {
-  return "<h2 id=\"provenance\">Provenance</h2>\n<p>Whoever diagnoses the log of this hash with these gets "
-         "the "
-         "same report.</p>\n" +
+  return "<h2 id=\"provenance\">Provenance</h2>\n<p>A diagnosis of the log with this hash and with these "
+         "files and options gives the same report.</p>\n" +
          html_table({},
                     {{"log", printable(d.log.path)},
                      {"log SHA-256", d.log.sha256},

@@ -85,8 +85,8 @@ void show_trace(PageFigure& figure, const FaultFinding& fault) {
 PageFigure evidence_figure(const FaultFinding& fault, const CurveWindow& window,
                            const std::vector<PlotMark>& marks) {
   PageFigure figure = figure_over(window, "evidence", marks);
-  figure.caption = "Evidence accumulating";
-  figure.y_label = "log likelihood over a healthy robot, nats";
+  figure.caption = "Accumulated evidence";
+  figure.y_label = "log-likelihood ratio to a healthy robot, nats";
   for (std::size_t i = 0; i < fault.trace.curves.size(); ++i) {
     const EvidenceCurve& curve = fault.trace.curves[i];
     figure.curves.push_back({plain_words(curve.label), fmt::format("e{}-{}", fault.id, i),
@@ -103,8 +103,8 @@ PageFigure evidence_figure(const FaultFinding& fault, const CurveWindow& window,
 
 PageFigure network_figure(const CurveWindow& window, const std::vector<PlotMark>& marks) {
   PageFigure figure = figure_over(window, "networks", marks);
-  figure.caption = "What both networks say of each single sample";
-  figure.y_label = "output, 1: it is there";
+  figure.caption = "Outputs of both networks for each sample";
+  figure.y_label = "output, 1: present";
   for (std::size_t i = 0; i < window.networks.size(); ++i) {
     const NetworkCurves& network = window.networks[i];
     const std::string what =

@@ -37,7 +37,7 @@ const ReportFormat& report_format(std::string_view name) {
   const auto& table = report_formats();
   const auto found = std::find_if(table.begin(), table.end(),
                                   [&](const ReportFormat& format) { return format.name == name; });
-  if (found == table.end()) throw Error(ErrorCode::internal, std::string(name), "is no format of reports");
+  if (found == table.end()) throw Error(ErrorCode::internal, std::string(name), "is not a report format");
   return *found;
 }
 

@@ -104,8 +104,7 @@ std::string difference_table(const RunComparison& comparison, const std::vector<
                     : std::isnan(s.diverges_s) ? "-"
                                                : seconds_text(s.diverges_s)});
   return scrolling(html_table(
-      {"signal", "joint", "unit", "rms", "largest", "at", "threshold", "beyond it", "leaves the noise"},
-      rows));
+      {"signal", "joint", "unit", "rms", "largest", "at", "threshold", "beyond it", "diverges at"}, rows));
 }
 
 std::string top(const RunComparison& c) {
@@ -124,13 +123,13 @@ std::string alignment_part(const RunComparison& c) {
                   "differences",
                   c.sigmas)};
   for (const std::string& note : c.notes) lines.push_back(printable(note));
-  return "<h2>How they were aligned</h2>\n" + html_list(lines);
+  return "<h2>Alignment</h2>\n" + html_list(lines);
 }
 
 std::string warp_figure(const RunAlignment& alignment) {
   if (!alignment.warped()) return "";
   LinePlot plot;
-  plot.title = "The second run's time less the first's";
+  plot.title = "Time of the second run minus time of the first";
   plot.x_label = "s from the start of the first run";
   PlotSeries series{"", alignment.first_s, {}, false, false};
   for (std::size_t i = 0; i < alignment.first_s.size(); ++i)

@@ -80,7 +80,7 @@ std::string term_table(const Identification& id) {
   for (const ModelTerm& t : id.terms)
     rows.push_back({t.name, std::to_string(t.joint + 1), fact_text(t.error_before), fact_text(t.error_after),
                     std::string("it ") + worth_words(t)});
-  return html_table(FactTable{"What the model was offered, and what it leaves of torque that was not fitted",
+  return html_table(FactTable{"Candidate terms, and the held-out torque residual without and with them",
                               {"term", "joint", "without it", "with it", "outcome"},
                               rows});
 }
@@ -92,7 +92,7 @@ std::string pattern_table(const Identification& id) {
     rows.push_back({std::to_string(j + 1), share_cell(p.position), share_cell(p.speed), share_cell(p.torque),
                     share_cell(p.previous)});
   }
-  return html_table(FactTable{"What the torque left over repeats with, in shares of its variance",
+  return html_table(FactTable{"Patterns of the torque residual, in shares of its variance",
                               {"joint", "position", "speed", "torque", "its value a window before"},
                               rows});
 }
@@ -113,7 +113,7 @@ std::string fit_tables(const Identification& id) {
          fmt::format("{:.3g} {}", nth(id.q_noise, j), position_unit(kind)),
          id.dq_noise.empty() ? "-" : fmt::format("{:.3g} {}", nth(id.dq_noise, j), velocity_unit(kind))});
   }
-  return html_table({"joint", "R2", "R2 held out", "left over, rms", "torque is late by", "noise of q",
+  return html_table({"joint", "R2", "R2 held out", "residual, rms", "torque is late by", "noise of q",
                      "noise of dq"},
                     rows, "Fit of each joint") +
          term_table(id) + pattern_table(id);
@@ -143,14 +143,14 @@ std::string excitation_tables(const Identification& id) {
              parameters}) +
          (mixture.empty()
               ? ""
-              : html_part("The mixture of parameters that is determined least", html_list({mixture})));
+              : html_part("The combination of parameters that is determined least", html_list({mixture})));
 }
 
 std::string trend_table(const Identification& id) {
   std::vector<HtmlRow> rows;
   HtmlRow head = {"parameter"};
   for (std::size_t i = 0; i < id.logs.size(); ++i) head.push_back(fmt::format("log {}", i + 1));
-  for (const char* name : {"unit", "chance if the same", "a log", "chance if level", "remark"})
+  for (const char* name : {"unit", "p-value if equal", "a log", "p-value if no trend", "remark"})
     head.emplace_back(name);
   for (const ParameterTrend& t : id.trends) {
     HtmlRow row(id.logs.size() + 1, "-");
@@ -182,7 +182,7 @@ std::string log_tables(const Identification& id) {
     issues.push_back({to_string(issue.severity), issue.code, std::to_string(issue.count), issue.message});
   return html_table({"log", "path", "rows", "used", "period", "R2 by joint", "remark", "SHA-256"}, rows,
                     "Logs") +
-         html_table(FactTable{"What was noticed", {"severity", "code", "times", "what"}, issues});
+         html_table(FactTable{"Issues", {"severity", "code", "times", "what"}, issues});
 }
 
 NamedPlot trend_figure(const ParameterTrend& trend, std::size_t logs) {

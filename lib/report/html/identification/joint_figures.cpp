@@ -96,16 +96,17 @@ NamedPlot friction_figure(const Identification& id, int joint) {
                               fmt::format("speed, {}", velocity_unit(kind)));
   plot.panels = {
       {.y_label = fmt::format("friction, {}", torque_unit(kind)),
-       .series = {dots(std::string(logged_words(id.robot.log.torque)) + " less inertia and gravity", cloud),
+       .series = {dots(std::string(logged_words(id.robot.log.torque)) + " minus inertia and gravity", cloud),
                   friction_curve(id, joint, cloud)}}};
   return {fmt::format("friction-{}", joint + 1), plot};
 }
 
 NamedPlot spectrum_figure(const Identification& id, int joint) {
   const ResidualPattern& p = id.residual_patterns[joint];
-  LinePlot plot = figure_plot(fmt::format("Joint {}: spectrum of what is left", joint + 1), "frequency, Hz");
+  LinePlot plot =
+      figure_plot(fmt::format("Joint {}: spectrum of the torque residual", joint + 1), "frequency, Hz");
   plot.panels = {{.y_label = fmt::format("rms, {}", torque_unit(id.space.chain.geometry[joint].kind)),
-                  .series = {{.name = "left over", .x = p.spectrum_hz, .y = p.spectrum}},
+                  .series = {{.name = "residual", .x = p.spectrum_hz, .y = p.spectrum}},
                   .log_y = true}};
   return {fmt::format("spectrum-{}", joint + 1), plot};
 }
@@ -116,17 +117,17 @@ std::vector<NamedPlot> joint_figures(const Identification& id, int joint) {
   if (joint >= std::ssize(id.joint_fits) || id.joint_fits[joint].size() == 0) return {};
   const JointFit& fit = id.joint_fits[joint];
   const AxisKind kind = id.space.chain.geometry[joint].kind;
-  const std::string y_label = fmt::format("left over, {}", torque_unit(kind));
+  const std::string y_label = fmt::format("residual, {}", torque_unit(kind));
   const auto residual = [&](std::size_t k) { return fit.residual(k); };
   std::vector<NamedPlot> plots = torque_figures(id, joint);
   plots.push_back(friction_figure(id, joint));
   plots.push_back(left_over(fmt::format("left-position-{}", joint + 1),
-                            fmt::format("Joint {}: what is left over position", joint + 1),
+                            fmt::format("Joint {}: torque residual over position", joint + 1),
                             fmt::format("position, {}", position_unit(kind)), y_label,
                             cloud_of(
                                 fit, [&](std::size_t k) { return fit.q[k]; }, residual)));
   plots.push_back(left_over(fmt::format("left-speed-{}", joint + 1),
-                            fmt::format("Joint {}: what is left over speed", joint + 1),
+                            fmt::format("Joint {}: torque residual over speed", joint + 1),
                             fmt::format("speed, {}", velocity_unit(kind)), y_label,
                             cloud_of(
                                 fit, [&](std::size_t k) { return fit.dq[k]; }, residual)));

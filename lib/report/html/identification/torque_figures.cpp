@@ -91,8 +91,8 @@ LinePlot over_time(const JointFit& fit, const Span& span, const std::string& tit
   plot.panels = {{.y_label = unit,
                   .series = {curve(logged, fit, span, [&](std::size_t k) { return fit.measured[k]; }),
                              curve("modelled", fit, span, [&](std::size_t k) { return fit.modelled[k]; })}},
-                 {.y_label = fmt::format("left over, {}", unit),
-                  .series = {curve("left over", fit, span, [&](std::size_t k) { return fit.residual(k); })}}};
+                 {.y_label = fmt::format("residual, {}", unit),
+                  .series = {curve("residual", fit, span, [&](std::size_t k) { return fit.residual(k); })}}};
   plot.panels[1].series[0].pen = 2;
   return plot;
 }
@@ -124,7 +124,7 @@ std::vector<NamedPlot> torque_figures(const Identification& id, int joint) {
   if (close.end - close.begin < all.end - all.begin)
     plots.push_back(
         {fmt::format("torque-close-{}", joint + 1),
-         over_time(fit, close, fmt::format("Joint {}: where most {} is left{}", joint + 1, what, of_log),
+         over_time(fit, close, fmt::format("Joint {}: largest {} residual{}", joint + 1, what, of_log),
                    torque_unit(kind), logged)});
   return plots;
 }
