@@ -43,15 +43,16 @@ std::string missing_joint_sentence(const std::vector<std::string>& columns, int 
                                    const std::string& later) {
   const std::string channel = to_string({Quantity::q, joint});
   return "no column for the position of joint " + std::to_string(joint) + " (" + channel +
-         "), though there is " + quoted(later) + "; only the joints before it are read. The columns are " +
-         listed(columns) + ". Name it in the robot file: [log.columns] " + channel + " = {name = \"...\"}";
+         ") was found, although the log has " + quoted(later) +
+         "; only the joints before it are read. The columns are " + listed(columns) +
+         ". Name it in the robot file: [log.columns] " + channel + " = {name = \"...\"}";
 }
 
 /// Returns a sentence that the header of a column has an unknown unit.
 std::string unknown_unit_sentence(const std::string& column, const std::string& unit,
                                   const std::string& channel) {
   return "column " + quoted(column) + " has the unit " + quoted(unit) +
-         ", which is not known; its numbers are taken as SI. Set unit or scale in [log.columns] " + channel;
+         ", which is unknown; its numbers are treated as SI. Set unit or scale in [log.columns] " + channel;
 }
 
 /// Returns a sentence on the column used for a quantity and its alternatives; empty if there are none.
@@ -67,8 +68,8 @@ std::string rivals_sentence(const std::vector<std::string>& columns,
       rivals += (rivals.empty() ? "" : ", ") + name_of(family);
   if (rivals.empty()) return "";
   const std::string channel = to_string({quantity, 1});
-  return name_of(chosen) + " was taken as " + channel + "; " + rivals +
-         " could be meant as well. To choose, name it in the robot file: [log.columns] " + channel;
+  return name_of(chosen) + " was used as " + channel + "; " + rivals +
+         " could also be meant. To choose, name the column in the robot file: [log.columns] " + channel;
 }
 
 /// Returns a sentence on the order in which joints with words for names were taken.
@@ -142,9 +143,9 @@ class Matcher {
     for (const auto& [name, spec] : map_) {
       const auto channel = canonical_channel(name);
       if (!channel)
-        throw Error(
-            ErrorCode::usage, "[log.columns] " + name,
-            "is no channel; the channels are t, q1.., dq1.., tau1.., q_ref1.., dq_ref1.., tau_ref1.., tau_meas1..");
+        throw Error(ErrorCode::usage, "[log.columns] " + name,
+                    "is not a channel; the channels are t, q1.., dq1.., tau1.., q_ref1.., dq_ref1.., "
+                    "tau_ref1.., tau_meas1..");
       if (spec.name.empty()) continue;
       const int column = spec.name == kRowNumberName ? kRowNumber : column_named(spec.name);
       if (column == -1)
@@ -326,7 +327,7 @@ class Matcher {
       if (!has(j))
         note("channel_missing", to_string({quantity, j}), Severity::warning,
              "no column for the " + std::string(meaning_of(quantity)) + " of joint " + std::to_string(j) +
-                 ", though other joints have one; it is taken as missing");
+                 ", although other joints have one; it is treated as missing");
   }
 
   const std::vector<RawColumn>& columns_;

@@ -73,8 +73,8 @@ bool is_known_unit(const char* unit, double seconds) {
 CountedTime by_motion(double step, double seconds) {
   for (const char* unit : kCounts)
     if (is_known_unit(unit, seconds) && *unit != '\0')
-      return {unit, fmt::format("the time has no unit; it was taken as {}, as the positions then move as the "
-                                "velocities say ({:.4g} Hz)",
+      return {unit, fmt::format("the time has no unit; it was treated as {}, with which the positions agree "
+                                "with the velocities ({:.4g} Hz)",
                                 unit, rate_of(step, unit))};
   return {};
 }
@@ -89,8 +89,8 @@ CountedTime by_rate(double step, std::size_t first) {
   }
   if (*best == '\0') return {};
   return {best, fmt::format(
-                    "the time has no unit; it was taken as {}, which makes {:.4g} Hz of steps of {:.4g}. If "
-                    "that is wrong, name it in the robot file: [log.columns] t = {{unit = \"ms\"}}",
+                    "the time has no unit; it was treated as {}, which gives {:.4g} Hz for steps of {:.4g}. "
+                    "If that is wrong, state the unit in the robot file: [log.columns] t = {{unit = \"ms\"}}",
                     best, rate_of(step, best), step)};
 }
 

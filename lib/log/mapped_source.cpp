@@ -71,7 +71,7 @@ void MappedSource::refuse_no_rows() const {
   if (rows_kept_ > 0) return;
   const LogIdentity& log = reader_->identity();
   if (log.rows_read == 0)
-    throw Error(ErrorCode::input, log.path, "has a header but no data row; a log has at least one");
+    throw Error(ErrorCode::input, log.path, "has a header but no data row; a log needs at least one");
   const auto runs = static_cast<int>(identity_.runs.size());
   if (runs > 0 && runs < options_.run)
     throw Error(ErrorCode::input, log.path,

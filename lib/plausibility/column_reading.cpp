@@ -59,12 +59,12 @@ void add_torque_units(const Chain& chain, std::vector<ColumnReading>& out) {
 
 void add_signs(const Chain& chain, std::vector<ColumnReading>& out) {
   for (int j = 0; j < chain.joints(); ++j) {
-    out.push_back({fmt::format("tau{} has the other sign", j + 1), fmt::format("sign = -1 for tau{}", j + 1),
-                   [j](Log& log) { scale(log.tau[j], -1.0); }});
-    out.push_back({fmt::format("q{0} and dq{0} have the other sign", j + 1),
+    out.push_back({fmt::format("tau{} has the opposite sign", j + 1),
+                   fmt::format("sign = -1 for tau{}", j + 1), [j](Log& log) { scale(log.tau[j], -1.0); }});
+    out.push_back({fmt::format("q{0} and dq{0} have the opposite sign", j + 1),
                    fmt::format("sign = -1 for q{0} and dq{0}", j + 1),
                    [j](Log& log) { scale_motion(log, j, -1.0); }});
-    out.push_back({fmt::format("dq{} has the other sign", j + 1), fmt::format("sign = -1 for dq{}", j + 1),
+    out.push_back({fmt::format("dq{} has the opposite sign", j + 1), fmt::format("sign = -1 for dq{}", j + 1),
                    [j](Log& log) {
                      if (!log.dq.empty()) scale(log.dq[j], -1.0);
                    }});
@@ -124,7 +124,7 @@ void add_common_units(const Chain& chain, std::vector<ColumnReading>& out) {
 /// Adds joints with the opposite direction of counting, which differs from a wrong sign of one column.
 void add_reversed_joints(const Chain& chain, std::vector<ColumnReading>& out) {
   for (int j = 0; j < chain.joints(); ++j)
-    out.push_back({fmt::format("joint {0} counts the other way (q{0}, dq{0} and tau{0})", j + 1),
+    out.push_back({fmt::format("joint {0} counts in the opposite direction (q{0}, dq{0} and tau{0})", j + 1),
                    fmt::format("sign = -1 for q{0}, dq{0} and tau{0}", j + 1), [j](Log& log) {
                      scale_motion(log, j, -1.0);
                      scale(log.tau[j], -1.0);

@@ -54,7 +54,7 @@ void refuse_implausible_units(std::span<LogSource* const> logs, const Robot& rob
   const std::string more =
       sentences.size() > 1 ? fmt::format(" ({} more channels look wrong)", sentences.size() - 1) : "";
   throw Error(ErrorCode::input, "the units of the logs",
-              fmt::format("look wrong: {}{}. --force goes on all the same", sentences.front(), more));
+              fmt::format("look wrong: {}{}. --force continues nevertheless", sentences.front(), more));
 }
 
 }  // namespace faultline

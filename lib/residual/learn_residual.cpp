@@ -51,12 +51,10 @@ Survey survey_logs(std::span<LogSource* const> logs, int joints) {
     log->rewind();
     while (log->next(segment)) {
       if (segment.joints() != joints || static_cast<int>(segment.tau.size()) != joints)
-        throw Error(
-            ErrorCode::input, log->identity().path,
-            fmt::format(
-                "has {} positions and {} torques, but the robot has {} joints; is it a log of another "
-                "robot?",
-                segment.joints(), segment.tau.size(), joints));
+        throw Error(ErrorCode::input, log->identity().path,
+                    fmt::format("has {} positions and {} torques, but the robot has {} joints; check that it "
+                                "is a log of this robot",
+                                segment.joints(), segment.tau.size(), joints));
       survey.has_velocity = survey.has_velocity && static_cast<int>(segment.dq.size()) == joints;
       widen(survey, segment);
       survey.rows += segment.rows();
@@ -64,7 +62,7 @@ Survey survey_logs(std::span<LogSource* const> logs, int joints) {
         periods.push_back(segment.time[i] - segment.time[i - 1]);
     }
   }
-  if (periods.empty()) throw Error(ErrorCode::input, "healthy logs", "have no two rows to learn from");
+  if (periods.empty()) throw Error(ErrorCode::input, "healthy logs", "do not have two rows to learn from");
   survey.period_s = upper_median_of(periods);
   return survey;
 }
@@ -156,12 +154,10 @@ ResidualGenerator untrained(const Robot& robot, const Survey& survey, const Tran
 void check_amount(const Pools& pools) {
   const auto found = pools.training.offered() + pools.validation.offered() + pools.check.offered();
   if (pools.training.offered() < kLeastPatterns || pools.check.offered() == 0)
-    throw Error(
-        ErrorCode::input, "healthy logs",
-        fmt::format(
-            "hold only {} usable steps of the motion; at least {} are needed to learn it: log longer, "
-            "and look for gaps and missing numbers",
-            found, 2 * kLeastPatterns));
+    throw Error(ErrorCode::input, "healthy logs",
+                fmt::format("hold only {} usable steps of the motion; at least {} are needed to learn it: "
+                            "record longer logs, and check for gaps and missing numbers",
+                            found, 2 * kLeastPatterns));
 }
 
 }  // namespace

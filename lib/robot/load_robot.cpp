@@ -25,7 +25,7 @@ Robot load_robot_file(const std::string& name, const std::string& folder) {
     if (is_order_of_axes(name)) return preset_robot(name);
     if (name.find_first_of("./") == std::string::npos)
       throw Error(ErrorCode::input, path,
-                  "is no file; expected a robot file, or the axes alone as letters R and P, base to tip, "
+                  "is not a file; expected a robot file, or the axes alone as letters R and P, base to tip, "
                   "such as RRP");
   }
   if (has_urdf_name(path)) return load_urdf_file(path);

@@ -46,7 +46,7 @@ std::vector<std::string> channel_names(int joints) {
 Eigen::MatrixXd read_coupling(const TomlTable& log, int joints) {
   const auto rows = log.number_rows("coupling", joints);
   if (static_cast<int>(rows.size()) != joints)
-    log.fail("coupling", fmt::format("expected {0} rows of {0} numbers, one each a joint, found {1}", joints,
+    log.fail("coupling", fmt::format("expected {0} rows of {0} numbers, one per joint, found {1}", joints,
                                      counted(static_cast<long long>(rows.size()), "row")));
   Eigen::MatrixXd matrix(joints, joints);
   for (int i = 0; i < joints; ++i)
@@ -86,7 +86,7 @@ void read_family(const TomlTable& columns, const std::string& family, int joints
   }
   const auto sign = pattern.name.find('#');
   if (sign == std::string::npos)
-    columns.fail(family, "stands for all joints, so its name needs a # where the joint's number is");
+    columns.fail(family, "stands for all joints, so its name needs a # in place of the joint number");
   for (int j = 0; j < joints; ++j) {
     ColumnSpec spec = pattern;
     spec.name.replace(sign, 1, std::to_string(first + j));
@@ -104,9 +104,9 @@ void read_columns(const TomlTable& columns, int joints, ColumnMap& map) {
     if (is_family(channel)) continue;
     if (std::find(names.begin(), names.end(), channel) == names.end())
       columns.fail(channel,
-                   fmt::format("is no channel of a robot with {0} joints; expected t, q1..q{0}, dq1..dq{0}, "
-                               "tau1..tau{0}, q_ref1..q_ref{0}, dq_ref1..dq_ref{0}, tau_ref1..tau_ref{0} or "
-                               "tau_meas1..tau_meas{0}, or q, dq, .. for all joints",
+                   fmt::format("is not a channel of a robot with {0} joints; expected t, q1..q{0}, "
+                               "dq1..dq{0}, tau1..tau{0}, q_ref1..q_ref{0}, dq_ref1..dq_ref{0}, "
+                               "tau_ref1..tau_ref{0} or tau_meas1..tau_meas{0}, or q, dq, .. for all joints",
                                joints));
     map[channel] = column_spec(columns, channel);
   }

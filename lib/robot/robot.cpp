@@ -24,12 +24,11 @@ bool is_order_of_axes(const std::string& text) {
 
 Robot preset_robot(const std::string& axes) {
   if (!is_order_of_axes(axes))
-    throw Error(
-        ErrorCode::usage, "axes",
-        fmt::format("\"{}\" is no order of parallel axes; expected 1 to {} letters R (turns about z) and "
-                    "P (slides along z) from base to tip, such as RRP, RRPR, RPRR or RR; give another "
-                    "chain axis by axis",
-                    axes, kMaxJoints));
+    throw Error(ErrorCode::usage, "axes",
+                fmt::format("\"{}\" is not an order of parallel axes; expected 1 to {} letters R (turns "
+                            "about z) and P (slides along z) from base to tip, such as RRP, RRPR, RPRR or "
+                            "RR; describe other chains axis by axis",
+                            axes, kMaxJoints));
   Robot robot;
   robot.name = axes;
   robot.axes = axes;

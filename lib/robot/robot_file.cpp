@@ -22,9 +22,10 @@ constexpr double kMostLoad = 0.9;  // highest share of a drive's torque that loa
 Robot chain_from_joints(const TomlTable& table, const std::vector<TomlTable>& joints) {
   if (joints.empty())
     table.fail(
-        "", fmt::format("says nothing about the axes; expected axes = \"RRP\" (base to tip) or one [[joint]] "
-                        "table an axis{}",
-                        table.has("axis") ? "; the key is \"axes\", not \"axis\"" : ""));
+        "",
+        fmt::format(
+            "does not give the axes; expected axes = \"RRP\" (base to tip) or one [[joint]] table per axis{}",
+            table.has("axis") ? "; the key is \"axes\", not \"axis\"" : ""));
   if (joints.size() > kMaxJoints)
     table.fail("joint", fmt::format("expected at most {} joints, found {}", kMaxJoints, joints.size()));
   Robot robot;
@@ -205,11 +206,9 @@ void read_known(Robot& robot, const TomlTable& table) {
     if (std::find(names.begin(), names.end(), key) == names.end()) {
       const std::string near = nearest_word(key, names);
       known.fail(
-          key,
-          fmt::format(
-              "is no parameter of this robot; expected m, l, fv, fc, fo, fb, fs, fl or jr with a joint from 1 "
-              "to {}{}",
-              robot.joints(), near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+          key, fmt::format("is not a parameter of this robot; expected m, l, fv, fc, fo, fb, fs, fl or jr "
+                           "with a joint from 1 to {}{}",
+                           robot.joints(), near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
     }
     const KnownValue fact = known_value(known, key);
     const std::string kind = key.substr(0, 2);

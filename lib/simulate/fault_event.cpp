@@ -30,7 +30,7 @@ void check_size(const Robot& robot, const SimulatedFault& fault) {
   const int link = fault.joint > 0 ? fault.joint : robot.joints();
   const double mass = robot.chain.links[static_cast<std::size_t>(link - 1)].mass;
   if (mass + fault.size <= 0.0)
-    bad_fault("size", fmt::format("takes {} kg from link {} of {} kg", -fault.size, link, mass));
+    bad_fault("size", fmt::format("removes {} kg from link {} of {} kg", -fault.size, link, mass));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ void check_links(const Chain& chain, const Gears& gears) {
     if (gears.has_spring(j) && !(1.0 / mobility(j, j) > kLeastInertia))
       bad_gears(
           "stiffness",
-          fmt::format("without its motor joint {} moves no inertia; expected 0 for it, or a link with one",
+          fmt::format("joint {} has no inertia behind its gear; expected stiffness 0, or a link with inertia",
                       j + 1));
 }
 
@@ -59,7 +59,7 @@ void check_gears(const Robot& robot, const GearSpec& spec) {
       const bool plays = value_of(spec.play, j) > 0.0;
       if (plays || value_of(spec.damping, j) > 0.0)
         bad_gears(plays ? "play" : "damping",
-                  fmt::format("the gear of joint {} is rigid; expected 0, or a stiffness", j + 1));
+                  fmt::format("the gear of joint {} is rigid; expected 0 here, or a stiffness", j + 1));
       continue;
     }
     if (!(value_of(chain.rotor_inertia, j) > 0.0))
@@ -70,7 +70,8 @@ void check_gears(const Robot& robot, const GearSpec& spec) {
                       j + 1));
     for (const SharedDrive& drive : chain.shared_drives)
       if (drive.along[j] != 0.0)
-        bad_gears("stiffness", fmt::format("a shared drive turns joint {}; expected 0 for it", j + 1));
+        bad_gears("stiffness",
+                  fmt::format("a shared drive turns joint {}; expected 0 for this joint", j + 1));
   }
   check_links(chain, Gears(chain, spec));
 }

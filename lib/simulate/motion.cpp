@@ -64,7 +64,7 @@ void check_replay(const Robot& robot, const SampledMotion& replay) {
     bad_motion("replay", fmt::format("expected q and dq of {} joints with at least 2 samples", n));
   for (std::size_t i = 0; i < n; ++i)
     if (replay.q[i].size() != replay.q[0].size() || replay.dq[i].size() != replay.q[0].size())
-      bad_motion("replay", "its columns differ in length");
+      bad_motion("replay", "the columns differ in length");
 }
 
 /// Path parameter of a move and its derivatives over x = time / duration of the move.

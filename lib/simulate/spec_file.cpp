@@ -28,7 +28,7 @@ SimulatedFault read_fault(const TomlTable& table, const Robot& robot) {
   fault.onset_s = table.number("onset_s", 0.0);
   if (!table.has("onset_s") && fault.kind != FaultKind::none) table.number("onset_s");
   if (table.has("end_s") && table.has("duration_s"))
-    table.fail("duration_s", "stands beside end_s; give one of them");
+    table.fail("duration_s", "is given together with end_s; give only one of them");
   fault.end_s = table.number("end_s", fault.end_s);
   if (table.has("duration_s")) fault.end_s = fault.onset_s + table.number("duration_s");
   fault.size = table.number("size", 0.0);
@@ -88,7 +88,7 @@ std::string run_name(const TomlTable& table, std::set<std::string>& taken) {
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-' && c != '.')
       table.fail("name", fmt::format("expected letters, digits, _ - and ., found \"{}\"", name));
   if (name.empty() || name[0] == '.')
-    table.fail("name", "expected a name that is not empty and starts with no dot");
+    table.fail("name", "expected a name that is not empty and does not start with a dot");
   if (!taken.insert(name).second) table.fail("name", fmt::format("\"{}\" is the name of two runs", name));
   return name;
 }

@@ -101,7 +101,8 @@ void read_controller(const TomlTable& table, int joints, std::uint64_t seed, Con
   controller.friction_compensation = table.flag("friction_compensation", controller.friction_compensation);
   read_list(table, "mass_error", joints, controller.mass_error);
   if (!table.has("mass_error_std")) return;
-  if (table.has("mass_error")) table.fail("mass_error_std", "stands beside mass_error; give one of them");
+  if (table.has("mass_error"))
+    table.fail("mass_error_std", "is given together with mass_error; give only one of them");
   const double std = table.number("mass_error_std");
   Random random = Random::stream(seed, 3);
   controller.mass_error.resize(joints);

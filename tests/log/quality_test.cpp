@@ -78,7 +78,7 @@ TEST(Quality, AChannelWithoutAnyValueIsSevere) {
   Log log = clean_log();
   log.tau[0].assign(log.rows(), std::nan(""));
   const LogQuality quality = quality_in(log);
-  expect_issue(quality, "missing_values", "tau1", "no value at all");
+  expect_issue(quality, "missing_values", "tau1", "has no values");
   EXPECT_EQ(quality.issues.find("missing_values", "tau1")->severity, Severity::severe);
 }
 
@@ -150,7 +150,7 @@ TEST(Quality, AJointThatTurnsOnAndOnIsNotSurelyInDegrees) {
                    fast = quality_in(turning(1000.0, false));
   ASSERT_NE(on.issues.find("unit_implausible", "q1"), nullptr);
   EXPECT_EQ(on.issues.find("unit_implausible", "q1")->severity, Severity::warning);
-  EXPECT_NE(on.issues.find("unit_implausible", "q1")->message.find("turns on and on"), std::string::npos);
+  EXPECT_NE(on.issues.find("unit_implausible", "q1")->message.find("turns without end"), std::string::npos);
   EXPECT_EQ(back.issues.find("unit_implausible", "q1")->severity, Severity::severe);
   EXPECT_EQ(fast.issues.find("unit_implausible", "q1")->severity, Severity::severe) << "100 rad/s";
   EXPECT_EQ(quality_in(turning(12.5, true)).issues.find("unit_implausible", "q1"), nullptr) << "two turns";

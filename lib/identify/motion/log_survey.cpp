@@ -137,7 +137,7 @@ std::string words(const DerivativeAgreement& agreement, int joint) {
   if (is_near(factor, 1e3) || is_near(factor, 1e-3))
     guess = "one of them is in mm, or the time in milliseconds";
   if (factor < 0.0)
-    guess = is_near(factor, 1.0) ? "one of them has the other sign" : guess + " and the other sign";
+    guess = is_near(factor, 1.0) ? "one of them has the opposite sign" : guess + " and the opposite sign";
   return fmt::format("dq{0} is {1:.4g} times the derivative of q{0}: {2}; dq{0} was left out", joint, factor,
                      guess);
 }

@@ -72,11 +72,11 @@ bool measures(Dimension dimension, Quantity quantity) {
 double checked_factor(const ColumnSpec& spec, const std::string& channel) {
   if (spec.sign != 1.0 && spec.sign != -1.0)
     throw Error(ErrorCode::usage, "[log.columns] " + channel,
-                "sign must be 1 or -1; a factor belongs into scale");
+                "sign must be 1 or -1; write a factor into scale");
   if (const auto factor = si_factor(spec.unit)) return *factor;
   throw Error(ErrorCode::usage, "[log.columns] " + channel,
               "the unit \"" + shortened(spec.unit, kLongestName) + "\"" +
-                  " is not known; use one such as rad, deg, m, mm, rad/s, rpm, N m, s, ms, us, ns");
+                  " is unknown; use one such as rad, deg, m, mm, rad/s, rpm, N m, s, ms, us, ns");
 }
 
 void refuse_misfit(const RawColumn& column, const ColumnSpec& spec, Channel channel,
@@ -88,8 +88,8 @@ void refuse_misfit(const RawColumn& column, const ColumnSpec& spec, Channel chan
   throw Error(
       in_header ? ErrorCode::input : ErrorCode::usage,
       in_header ? path : "[log.columns] " + to_string(channel),
-      fmt::format("column \"{0}\" is in {1}, and {2} is a {3} in {4}: say in the robot file how much {5} is, "
-                  "[log.columns] {2} = {{name = \"{0}\", scale = ...}}, or what its true unit is",
+      fmt::format("column \"{0}\" is in {1}, but {2} is a {3} in {4}: state in the robot file how much {5} "
+                  "is, [log.columns] {2} = {{name = \"{0}\", scale = ...}}, or state the true unit",
                   shortened(column.name, kLongestName), shortened(unit, kLongestName), to_string(channel),
                   meaning_of(channel.quantity), units_of(channel.quantity), one_of(known->dimension)));
 }
@@ -115,9 +115,8 @@ std::vector<ColumnFamily> take_misfits(std::vector<ColumnFamily>& families,
 }
 
 std::string not_taken_sentence(const RawColumn& column, Quantity quantity) {
-  return fmt::format("column \"{}\" is in {}, so it was not taken as {}",
-                     shortened(column.name, kLongestName), shortened(column.unit, kLongestName),
-                     meaning_of(quantity));
+  return fmt::format("column \"{}\" is in {}, so it was not used as {}", shortened(column.name, kLongestName),
+                     shortened(column.unit, kLongestName), meaning_of(quantity));
 }
 
 }  // namespace faultline

@@ -41,13 +41,12 @@ void judge_motion_scale(const std::vector<VelocityAgreement>& agreements, Issues
   }
   const auto enough = std::max(2.0, kShareAlike * static_cast<double>(moving.size()));
   if (alike < enough || std::abs(factor - 1.0) < std::max(kLeastOff, kSurelyOff * least_std)) return;
-  issues.add(make_issue(
-      kScaledMotion, Severity::warning,
-      fmt::format(
-          "the positions of {} of {} moving joints change {:.4f} times as fast as their velocities say: "
-          "the clock or the positions are scaled. If the clock is, say so in the robot file, "
-          "[log.columns] t = {{scale = {:.4f}}}; if the positions are, {{scale = {:.4f}}} for each of them",
-          alike, moving.size(), factor, factor, 1.0 / factor)));
+  issues.add(make_issue(kScaledMotion, Severity::warning,
+                        fmt::format("the positions of {} of {} moving joints change {:.4f} times as fast as "
+                                    "their velocities: the clock or the positions are scaled. If the clock "
+                                    "is scaled, correct it in the robot file, [log.columns] t = {{scale = "
+                                    "{:.4f}}}; if the positions are, use {{scale = {:.4f}}} for each of them",
+                                    alike, moving.size(), factor, factor, 1.0 / factor)));
 }
 
 }  // namespace faultline

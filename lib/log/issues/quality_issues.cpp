@@ -35,7 +35,7 @@ void judge_missing(const ChannelSummary& channel, Issues& issues) {
   const Severity severity = !channel.canonical ? Severity::note : all ? Severity::severe : Severity::warning;
   issues.add(
       {"missing_values", channel.name, severity,
-       all ? "has no value at all"
+       all ? "has no values"
            : fmt::format("{:.2g} % of the values are missing, first at {:.10g} s; they stay missing",
                          share(channel.missing, channel.values + channel.missing), channel.first_missing_s),
        channel.first_missing_row, channel.first_missing_s, channel.missing});
@@ -44,7 +44,7 @@ void judge_missing(const ChannelSummary& channel, Issues& issues) {
 void judge_constant(const ChannelSummary& channel, Issues& issues) {
   if (!is_measurement(channel) || !channel.constant() || channel.values < kFewestValues) return;
   issues.add({"constant_channel", channel.name, Severity::warning,
-              fmt::format("is {:.6g} in every row; a joint at rest, or a channel that was not connected",
+              fmt::format("is {:.6g} in every row: the joint is at rest, or the channel was not connected",
                           channel.min)});
 }
 
@@ -105,27 +105,26 @@ void judge_span(const ChannelSummary& channel, const TimeAxis& time, const Quali
   const UnitWords words = position_words(axis);
   const bool turns_on = axis != Axis::slides && turns_on_and_on(channel, time);
   const std::string what =
-      turns_on ? fmt::format("goes one way from {:.6g} to {:.6g}: a joint that turns on and on, or not in {}",
-                             channel.min, channel.max, words.si)
-               : fmt::format("lies between {:.6g} and {:.6g}, which is hardly in {}", channel.min,
-                             channel.max, words.si);
-  issues.add(
-      {"unit_implausible", channel.name, turns_on ? Severity::warning : Severity::severe,
-       fmt::format("{}; if it is {}, say so in the header, \"{} [{}]\", or the robot file: [log.columns] "
-                   "{} = {{unit = \"{}\"}}",
-                   what, words.likely, channel.name, words.unit, channel.name, words.unit)});
+      turns_on
+          ? fmt::format(
+                "moves in one direction from {:.6g} to {:.6g}: a joint that turns without end, or not in {}",
+                channel.min, channel.max, words.si)
+          : fmt::format("is between {:.6g} and {:.6g}, which is hardly in {}", channel.min, channel.max,
+                        words.si);
+  issues.add({"unit_implausible", channel.name, turns_on ? Severity::warning : Severity::severe,
+              fmt::format("{}; if it is {}, state the unit in the header, \"{} [{}]\", or in the robot file: "
+                          "[log.columns] {} = {{unit = \"{}\"}}",
+                          what, words.likely, channel.name, words.unit, channel.name, words.unit)});
 }
 
 void judge_speed(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
   if (!channel.canonical || !starts_with(channel.name, "dq") || channel.values == 0) return;
   if (std::max(std::abs(channel.min), std::abs(channel.max)) < options.fastest) return;
   const UnitWords words = velocity_words(axis_of(channel, options));
-  issues.add(
-      {"unit_implausible", channel.name, Severity::warning,
-       fmt::format(
-           "lies between {:.6g} and {:.6g}, which is hardly in {}; if it is {}, say so in the header or the robot "
-           "file: [log.columns] {} = {{unit = \"{}\"}}",
-           channel.min, channel.max, words.si, words.likely, channel.name, words.unit)});
+  issues.add({"unit_implausible", channel.name, Severity::warning,
+              fmt::format("is between {:.6g} and {:.6g}, which is hardly in {}; if it is {}, state the unit "
+                          "in the header or in the robot file: [log.columns] {} = {{unit = \"{}\"}}",
+                          channel.min, channel.max, words.si, words.likely, channel.name, words.unit)});
 }
 
 }  // namespace
@@ -135,8 +134,8 @@ void judge_time(const TimeAxis& time, const QualityOptions& options, Issues& iss
     issues.add(
         {"unit_implausible", "t", Severity::severe,
          fmt::format(
-             "the time steps by {:.6g}, which is hardly in seconds; if it is ms, us or ns, say so in the "
-             "header, \"t [ms]\", or the robot file: [log.columns] t = {{unit = \"ms\"}}",
+             "the time steps by {:.6g}, which is hardly in seconds; if it is ms, us or ns, state the unit in "
+             "the header, \"t [ms]\", or in the robot file: [log.columns] t = {{unit = \"ms\"}}",
              time.period_s)});
   if (time.gaps > 0)
     issues.add(

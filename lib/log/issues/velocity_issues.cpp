@@ -26,8 +26,8 @@ std::string guess_of(double factor, bool turns, bool slides) {
     return "the velocity seems to be in deg/s, the position in rad";
   if (!slides && near(factor, kRpm)) return "the velocity seems to be in rpm, the position in rad";
   if (near(factor, 1e3))
-    return turns ? "the velocity's unit is 1000 times too large, or the time is in s and taken as ms"
-                 : "the position seems to be in mm, the velocity in m/s, or the time in s and taken as ms";
+    return turns ? "the velocity's unit is 1000 times too large, or the time is in s and was treated as ms"
+                 : "the position seems to be in mm, the velocity in m/s, or the time in s and treated as ms";
   if (near(factor, 1e-3))
     return turns ? "the time seems to be in ms"
                  : "the time seems to be in ms, or the velocity in mm/s and the position in m";
@@ -64,9 +64,9 @@ bool is_of_angles(double factor, const QualityOptions& options) {
 
 std::string time_guess(double factor, double period_s) {
   for (const auto& [unit, si] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}})
-    if (near(factor, si)) return fmt::format("the time seems to be in {}, but was taken as s", unit);
+    if (near(factor, si)) return fmt::format("the time seems to be in {}, but was treated as s", unit);
   for (const auto& [unit, si] : {std::pair{"ms", 1e3}, {"us", 1e6}, {"ns", 1e9}})
-    if (near(factor, si)) return fmt::format("the time seems to be in s, but was taken as {}", unit);
+    if (near(factor, si)) return fmt::format("the time seems to be in s, but was treated as {}", unit);
   return fmt::format(
       "the sample period seems to be {:.4g} s, not {:.4g} s: multiply the scale of t by {:.4g}",
       factor * period_s, period_s, factor);
@@ -76,15 +76,13 @@ void judge_one(const VelocityAgreement& agreement, int joint, const std::string&
   const std::string channel = to_string({Quantity::dq, joint});
   if (agreement.verdict == VelocityVerdict::scaled)
     issues.add({"velocity_contradicts_position", channel, Severity::severe,
-                fmt::format("the position changes {:.4g} times as fast as the velocity says: {}",
-                            agreement.factor, why)});
+                fmt::format("the position changes {:.4g} times as fast as the velocity: {}", agreement.factor,
+                            why)});
   if (agreement.verdict == VelocityVerdict::contradicts)
-    issues.add(
-        {"velocity_contradicts_position", channel, Severity::warning,
-         fmt::format(
-             "the velocity does not follow the position (correlation {:.2f}); one of them is of another "
-             "joint, or was stuck",
-             agreement.correlation)});
+    issues.add({"velocity_contradicts_position", channel, Severity::warning,
+                fmt::format("the velocity does not follow the position (correlation {:.2f}); one of them "
+                            "belongs to another joint, or was stuck",
+                            agreement.correlation)});
 }
 
 }  // namespace
@@ -94,11 +92,10 @@ void judge_velocities(const std::vector<VelocityAgreement>& agreements, const Ti
   const double factor = common_factor(agreements);
   const bool all_alike = factor != 1.0 && !is_of_angles(factor, options);
   if (all_alike)
-    issues.add(
-        {"sample_period_contradicts_motion", "t", Severity::severe,
-         fmt::format("the positions of all moving joints change {:.4g} times as fast as their velocities "
-                     "say: {}; correct it in the robot file: [log.columns] t",
-                     factor, time_guess(factor, time.period_s))});
+    issues.add({"sample_period_contradicts_motion", "t", Severity::severe,
+                fmt::format("the positions of all moving joints change {:.4g} times as fast as their "
+                            "velocities: {}; correct it in the robot file: [log.columns] t",
+                            factor, time_guess(factor, time.period_s))});
   for (std::size_t j = 0; j < agreements.size(); ++j) {
     const bool known = j < options.slides.size();
     const int joint = static_cast<int>(j) + 1;

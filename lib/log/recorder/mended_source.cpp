@@ -78,14 +78,14 @@ void MendedSource::judge_rows() {
     if (state == RecorderState::froze)
       while (settled_ <= looked_at_)
         empty_row(settled_, "recorder_stopped",
-                  "all joints keep every digit of what they measured though their velocity says that they "
-                  "move: the recorder stood still; the values of such rows are taken as missing");
+                  "all joints repeat every digit of their values although their velocities show motion: the "
+                  "recorder stood still; the values of such rows are treated as missing");
     while (settled_ < looked_at_) settle(settled_);
     if (settled_ > looked_at_) continue;
     if (state == RecorderState::blank)
       empty_row(settled_, "rows_blank",
                 "position, velocity and torque of all joints become exactly zero from one row to the next: "
-                "the recorder wrote nothing; the values of such rows are taken as missing");
+                "the recorder wrote no values; the values of such rows are treated as missing");
     else
       settle(settled_);
   }
@@ -117,7 +117,7 @@ void MendedSource::settle(int row) {
   if (const auto pair = jumps_.swapped()) {
     mended_.add({kChangedColumns, "", Severity::severe,
                  fmt::format("row {}: from {:.10g} s on the columns of joints {} and {} are swapped; cut the "
-                             "log there, or mend the columns",
+                             "log there, or correct the columns",
                              number_of(row), row_.t, pair->first + 1, pair->second + 1),
                  number_of(row), row_.t, 1});
     kept_.push_back(row);
@@ -156,7 +156,7 @@ bool MendedSource::is_behind_break() {
 void MendedSource::end_break() {
   if (break_.row == 0) return;
   const std::string place = fmt::format(
-      "row {}: at {:.10g} s joints {} jump at once, further than their velocities allow: ", break_.row,
+      "row {}: at {:.10g} s joints {} jump together, further than their velocities allow: ", break_.row,
       break_.t, break_.joints);
   const std::int64_t rows = break_.rows;
   if (break_.copies >= kSurelyAgain)
@@ -167,12 +167,11 @@ void MendedSource::end_break() {
                              break_.copies),
          break_.row, break_.t, 1, rows});
   else
-    mended_.add(
-        {"rows_cut_out", "", Severity::warning,
-         place + fmt::format("rows are missing before it though no time is; {} rows were left out, so "
-                             "that nothing is concluded across the break",
-                             rows),
-         break_.row, break_.t, 1, rows});
+    mended_.add({"rows_cut_out", "", Severity::warning,
+                 place + fmt::format("rows are missing before it although no time is missing; {} rows were "
+                                     "left out, so that nothing is concluded across the break",
+                                     rows),
+                 break_.row, break_.t, 1, rows});
   break_ = {};
 }
 
@@ -188,8 +187,8 @@ void MendedSource::unwrap(int row) {
       positions[j][row] = angles[j].unwrapped(rows_.time[row], before, dq, longest);
       if (!angles[j].has_wrapped()) continue;
       mended_.add({"angle_unwrapped", to_string({quantity, static_cast<int>(j) + 1}), Severity::note,
-                   fmt::format("row {}: jumps by a turn to {:.4g} rad while the joint goes on; it was kept "
-                               "within one turn, and goes on beyond now",
+                   fmt::format("row {}: jumps by a turn to {:.4g} rad while the joint continues to move; the "
+                               "angle was logged within one turn and is continued beyond it",
                                number_of(row), before),
                    number_of(row), rows_.time[row], 1});
     }

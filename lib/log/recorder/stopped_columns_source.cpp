@@ -52,19 +52,20 @@ GroupWords words_of(ColumnGroup group, bool is_zero) {
   switch (group) {
     case ColumnGroup::positions:
       return {"positions_stopped",
-              "the positions of all joints keep every digit though their velocities say that they move"};
+              "the positions of all joints repeat every digit although their velocities show motion"};
     case ColumnGroup::velocities:
-      return {"velocities_stopped", is_zero
-                                        ? "the velocities of all joints are zero though their positions move"
-                                        : "the velocities of all joints keep every digit though their "
-                                          "positions do not move so"};
+      return {
+          "velocities_stopped",
+          is_zero
+              ? "the velocities of all joints are zero although their positions change"
+              : "the velocities of all joints repeat every digit although their positions move differently"};
     case ColumnGroup::torques:
       break;
   }
   return {"torques_stopped",
-          is_zero ? "the torques of all joints are zero though the joints speed up and slow down"
-                  : "the torques of all joints keep every digit though the joints speed up "
-                    "and slow down"};
+          is_zero
+              ? "the torques of all joints are zero although the joints accelerate and decelerate"
+              : "the torques of all joints repeat every digit although the joints accelerate and decelerate"};
 }
 
 JointSignals& signals_of_group(Log& rows, ColumnGroup group) {
@@ -200,10 +201,11 @@ void StoppedColumnsSource::empty_held(ColumnGroup group, const ColumnHold& hold,
   for (int row = static_cast<int>(std::max<std::int64_t>(first, 0)); row <= up_to; ++row) {
     if (std::isnan(signals.front()[row])) continue;
     const std::int64_t number = rows_.first_row + row + 1;
-    found_.add({words.code, "", Severity::warning,
-                fmt::format("row {}: {}: the recorder did not measure them; such values are taken as missing",
-                            number, words.what),
-                number, rows_.time[row], 1});
+    found_.add(
+        {words.code, "", Severity::warning,
+         fmt::format("row {}: {}: the recorder did not measure them; such values are treated as missing",
+                     number, words.what),
+         number, rows_.time[row], 1});
     for (std::vector<double>& joint : signals) joint[row] = std::nan("");
   }
 }

@@ -17,10 +17,10 @@ void blank_implausible(Log& segment, std::int64_t first_row, Issues& issues) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!(std::abs(values[i]) > kImplausible)) continue;
       const std::int64_t row = first_row + static_cast<std::int64_t>(i) + 1;
-      issues.add(
-          {"value_implausible", to_string(channel), Severity::warning,
-           fmt::format("row {}: {} = {} cannot be; taken as missing", row, to_string(channel), values[i]),
-           row, segment.time[i]});
+      issues.add({"value_implausible", to_string(channel), Severity::warning,
+                  fmt::format("row {}: {} = {} is impossible; treated as missing", row, to_string(channel),
+                              values[i]),
+                  row, segment.time[i]});
       values[i] = std::nan("");
     }
   });

@@ -34,7 +34,7 @@ bool goes_on(double time, double next, double usual) {
 
 std::string what_is_wrong(const std::string& code, double t, double newest) {
   if (code == "time_missing") return "has no time";
-  if (code == "time_implausible") return fmt::format("time {} s cannot be", t);
+  if (code == "time_implausible") return fmt::format("time {} s is impossible", t);
   if (code == "time_repeated") return fmt::format("repeats the time {} s", t);
   if (code == "time_backward") return fmt::format("time {} s is before {} s of an earlier row", t, newest);
   return fmt::format("time {} s is ahead of the row after it", t);
@@ -129,12 +129,11 @@ void RowOrder::take_behind(const Row& row, double next, Issues& issues) {
   const Behind place_of_it = behind(row);
   if (place_of_it.is_same) return leave_out("time_repeated", row, issues);
   if (place_of_it.fits) {
-    issues.add(
-        {"time_out_of_order", "t", Severity::note,
-         fmt::format("row {}: time {} s comes after later ones; such rows were put in their places, up to "
-                     "{} rows back",
-                     row.number, store_.time[row.at], kOrderWindowRows),
-         row.number, store_.time[row.at], 1});
+    issues.add({"time_out_of_order", "t", Severity::note,
+                fmt::format("row {}: time {} s comes after later ones; such rows were moved to their places, "
+                            "up to {} rows back",
+                            row.number, store_.time[row.at], kOrderWindowRows),
+                row.number, store_.time[row.at], 1});
     return place(row, place_of_it.later, issues);
   }
   if (!place_of_it.is_far || !goes_on(row.time, next, usual_step()))
@@ -171,14 +170,14 @@ void RowOrder::begin_run(Row row, Issues& issues) {
   const double offset = offset_ + kDay_s * days + shift;
   const std::string reading =
       wanted_run_ == kEveryRun
-          ? fmt::format(
-                "it is read on, with {} s added to its times, after a gap. To read one run alone: --run N",
-                offset)
+          ? fmt::format("it is read after a gap, with {} s added to its times. To read only one run: --run N",
+                        offset)
           : fmt::format("run {} is read. To read all of them, leave out --run", wanted_run_);
-  issues.add({"clock_restart", "t", Severity::warning,
-              fmt::format("row {}: the clock goes back from {} to {} s and on from there: run {} begins; {}",
-                          row.number, newest_ - clock_shift(), own, run, reading),
-              row.number, own, 1});
+  issues.add(
+      {"clock_restart", "t", Severity::warning,
+       fmt::format("row {}: the clock goes back from {} to {} s and continues from there: run {} begins; {}",
+                   row.number, newest_ - clock_shift(), own, run, reading),
+       row.number, own, 1});
   offset_ = offset;
   midnights_ = 0;
   row = {own + offset_, own, row.at, row.number};
@@ -282,12 +281,11 @@ double RowOrder::usual_step() const {
 void RowOrder::tell_lost(Issues& issues) const {
   const double lost_s = static_cast<double>(most_lost_.rows) * most_lost_.step_s;
   if (lost_s <= judged_moment_s(most_lost_.step_s)) return;
-  issues.add(
-      {"rows_not_judged", "t", Severity::severe,
-       fmt::format("{} rows in succession from row {} on ({:.3g} s of them) have no usable time and were "
-                   "left out; what happened there is not judged",
-                   most_lost_.rows, most_lost_.first, lost_s),
-       most_lost_.first, std::nan(""), most_lost_.rows});
+  issues.add({"rows_not_judged", "t", Severity::severe,
+              fmt::format("{} rows in succession from row {} on ({:.3g} s of them) have no usable time and "
+                          "were left out; this part of the log is not judged",
+                          most_lost_.rows, most_lost_.first, lost_s),
+              most_lost_.first, std::nan(""), most_lost_.rows});
 }
 
 }  // namespace faultline

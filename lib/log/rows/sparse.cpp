@@ -51,10 +51,10 @@ void SparseRows::gather(Log& segment, Issues& issues) {
   }
   keep_rows(segment.time, rows);
   if (lost > 0)
-    issues.add(
-        {"row_of_other_signals", "", Severity::note,
-         "rows without a position were left out; what they hold of other signals stays until the next value, or for a moment",
-         0, std::numeric_limits<double>::quiet_NaN(), lost, lost});
+    issues.add({"row_of_other_signals", "", Severity::note,
+                "rows without a position were left out; the values of other signals in them hold until the "
+                "next value, or for a moment",
+                0, std::numeric_limits<double>::quiet_NaN(), lost, lost});
 }
 
 }  // namespace faultline

@@ -57,31 +57,29 @@ void judge_stuck(const CheckupResult& checkup, const LogQuality& quality, Issues
   for (const ChannelCheckup& one : checkup.channels) {
     const SameValue& same = one.course.while_moving;
     if (!can_stick(one) || same.moved < usual_motion(one, checkup, quality)) continue;
-    issues.add(
-        {"stuck_channel", to_string(one.channel), Severity::warning,
-         fmt::format("stands at {:.6g} for {:.4g} s from {:.10g} s on, {} rows, while {} says that the "
-                     "joint moved by {:.3g}{}",
-                     same.value, same.length_s, same.start_s, same.rows,
-                     one.channel.quantity == Quantity::q ? "its velocity" : "its position", same.moved,
-                     one.channel.quantity == Quantity::dq ? " more or less" : ""),
-         0, same.start_s});
+    issues.add({"stuck_channel", to_string(one.channel), Severity::warning,
+                fmt::format("stands at {:.6g} for {:.4g} s from {:.10g} s on, {} rows, while according to {} "
+                            "the joint moved by {:.3g}{}",
+                            same.value, same.length_s, same.start_s, same.rows,
+                            one.channel.quantity == Quantity::q ? "its velocity" : "its position", same.moved,
+                            one.channel.quantity == Quantity::dq ? " more or less" : ""),
+                0, same.start_s});
   }
 }
 
 void judge_clock(const CheckupResult& checkup, const LogQuality& quality, Issues& issues) {
   for (const PeriodChange& change : checkup.clock_changes)
-    issues.add(
-        {"clock_change", "t", Severity::warning,
-         fmt::format("the sample period changes for good about {:.10g} s, from {:.4g} to {:.4g} s; what "
-                     "was learned at one of them does not hold at the other: cut the log there",
-                     change.at_s, change.before_s, change.after_s),
-         change.row, change.at_s});
+    issues.add({"clock_change", "t", Severity::warning,
+                fmt::format("the sample period changes permanently at about {:.10g} s, from {:.4g} to {:.4g} "
+                            "s; a model learned at one period does not hold at the other: cut the log there",
+                            change.at_s, change.before_s, change.after_s),
+                change.row, change.at_s});
   if (quality.time.period_s < kShortestPeriod_s)
-    issues.add(
-        {"unit_implausible", "t", Severity::severe,
-         fmt::format("a row every {:.3g} s is more often than robots log; if the stamps are in s and were "
-                     "taken as smaller units, say so in the robot file: [log.columns] t = {{unit = \"s\"}}",
-                     quality.time.period_s)});
+    issues.add({"unit_implausible", "t", Severity::severe,
+                fmt::format(
+                    "a row every {:.3g} s is more often than robots log; if the time is in s and was treated "
+                    "as a smaller unit, state the unit in the robot file: [log.columns] t = {{unit = \"s\"}}",
+                    quality.time.period_s)});
 }
 
 void judge_repeated(const CheckupResult& checkup, const LogQuality& quality, Issues& issues) {
@@ -91,18 +89,17 @@ void judge_repeated(const CheckupResult& checkup, const LogQuality& quality, Iss
   };
   const auto& [all, positions, mixed] = checkup.repeated;
   if (is_often(all))
-    issues.add(
-        {"rows_repeated", "", Severity::warning,
-         fmt::format("{:.1f} % of the rows repeat the row before, at another time: what was read changes "
-                     "less often than it was logged, so the true rate is lower",
-                     100.0 * static_cast<double>(all.held) / rows),
-         all.first_row, std::nan(""), all.held});
+    issues.add({"rows_repeated", "", Severity::warning,
+                fmt::format("{:.1f} % of the rows repeat the row before, at another time: the signals change "
+                            "less often than they were logged, so the true rate is lower",
+                            100.0 * static_cast<double>(all.held) / rows),
+                all.first_row, std::nan(""), all.held});
   else if (is_often(positions) && static_cast<double>(mixed) < kMixedShare * rows &&
            checkup.joints.size() > 1)
     issues.add(
         {"positions_repeated", "", Severity::warning,
-         fmt::format("{:.1f} % of the rows repeat all positions of the row before while other columns go "
-                     "on: positions are read less often than they are logged; log at their rate",
+         fmt::format("{:.1f} % of the rows repeat all positions of the row before while other columns "
+                     "change: positions are measured less often than they are logged; log at their rate",
                      100.0 * static_cast<double>(positions.held) / rows),
          positions.first_row, std::nan(""), positions.held});
 }
@@ -110,11 +107,10 @@ void judge_repeated(const CheckupResult& checkup, const LogQuality& quality, Iss
 /// Adds an issue if a velocity's size differs from the position's change per row, unless noise explains it.
 void judge_velocity_size(const VelocityRelated& velocity, const std::string& channel, Issues& issues) {
   if (!(std::abs(velocity.rms_ratio - 1.0) > kOffVelocity && velocity.noise_share < kLittleNoise)) return;
-  issues.add(
-      {"velocity_off", channel, Severity::note,
-       fmt::format("is {:.2f} times as large (rms) as the position's change from row to row: one of them is "
-                   "filtered, coarse, scaled or read less often",
-                   velocity.rms_ratio)});
+  issues.add({"velocity_off", channel, Severity::note,
+              fmt::format("is {:.2f} times as large (rms) as the position's change from row to row: one of "
+                          "them is filtered, coarse, scaled or measured less often",
+                          velocity.rms_ratio)});
 }
 
 void judge_joints(const CheckupResult& checkup, Issues& issues) {
@@ -124,17 +120,17 @@ void judge_joints(const CheckupResult& checkup, Issues& issues) {
     if (torque.correlation < kAgainst)
       issues.add(
           {"torque_against_acceleration", to_string({Quantity::tau, joint}), Severity::warning,
-           fmt::format("falls where the joint accelerates (correlation {:.2f}): the sign of torque or "
-                       "position is wrong; say so in the robot file: [log.columns] tau{} = {{sign = -1}}",
+           fmt::format("falls when the joint accelerates (correlation {:.2f}): the sign of torque or "
+                       "position is wrong; correct it in the robot file: [log.columns] tau{} = {{sign = -1}}",
                        torque.correlation, joint)});
     judge_velocity_size(velocity, to_string({Quantity::dq, joint}), issues);
     if (velocity.delay_rows > kLateRows)
       issues.add({"velocity_late", to_string({Quantity::dq, joint}), Severity::note,
-                  fmt::format("comes {:.1f} rows after the position's change, as a filtered one does",
+                  fmt::format("lags the change of the position by {:.1f} rows, as a filtered velocity does",
                               velocity.delay_rows)});
     if (std::abs(torque.delay_rows) > kLateRows + torque.delay_doubt_rows)
       issues.add({"torque_delayed", to_string({Quantity::tau, joint}), Severity::note,
-                  fmt::format("is logged {:.1f} rows {} the acceleration it goes with (correlation {:.2f})",
+                  fmt::format("is logged {:.1f} rows {} the acceleration that it causes (correlation {:.2f})",
                               std::abs(torque.delay_rows), torque.delay_rows > 0.0 ? "after" : "before",
                               torque.correlation)});
   }

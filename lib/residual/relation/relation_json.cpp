@@ -114,8 +114,7 @@ std::vector<SignalRelation> relations_from_json(const nlohmann::json& list, int 
     if (!fits(relations.back(), joints))
       throw Error(
           ErrorCode::input, where,
-          fmt::format("has a relation between signals that does not fit together (entry {}); learn the "
-                      "model again",
+          fmt::format("has an inconsistent relation between signals (entry {}); learn the model again",
                       relations.size()));
   }
   return relations;

@@ -15,32 +15,35 @@ const char* key_of(DhConvention convention) { return convention == DhConvention:
 void refuse_other_placement(const Robot& robot, const TomlTable& table, const std::vector<TomlTable>& joints,
                             const std::string& row) {
   if (table.has("axes"))
-    table.fail("axes",
-               fmt::format("stands beside {0} in [[joint]]; leave out axes, or {0} in every joint", row));
+    table.fail(
+        "axes",
+        fmt::format("is given together with {0} in [[joint]]; leave out axes, or {0} in every joint", row));
   for (const TomlTable& joint : joints)
     for (const char* key : {"axis", "offset", "direction"})
-      if (joint.has(key)) joint.fail(key, fmt::format("stands beside {}; give one of them", row));
+      if (joint.has(key))
+        joint.fail(key, fmt::format("is given together with {}; give only one of them", row));
   if (std::find(robot.shapes.begin(), robot.shapes.end(), LinkShape::rod) != robot.shapes.end())
-    table.fail("link",
-               fmt::format("has the shape \"rod\", but {} says nothing of rods; expected \"general\" or "
-                           "\"point\"",
-                           row));
+    table.fail(
+        "link",
+        fmt::format("has the shape \"rod\", but {} does not describe rods; expected \"general\" or \"point\"",
+                    row));
   const auto says_length = [](const auto& fact) { return fact.first[0] == 'l'; };
   if (std::any_of(robot.known.begin(), robot.known.end(), says_length) ||
       std::any_of(robot.chain.length.begin(), robot.chain.length.end(), [](double l) { return l != 0.0; }))
-    table.fail("",
-               fmt::format("gives a length beside {}, which says where all joints sit; leave it out", row));
+    table.fail(
+        "",
+        fmt::format("gives a length together with {}, which already places all joints; leave it out", row));
 }
 
 DhRow read_row(const TomlTable& joint, DhConvention convention) {
   const char* other =
       key_of(convention == DhConvention::standard ? DhConvention::modified : DhConvention::standard);
   if (joint.has(other))
-    joint.fail(other, fmt::format("is mixed with {}; give one convention", key_of(convention)));
+    joint.fail(other, fmt::format("is mixed with {}; use one convention", key_of(convention)));
   if (!joint.has(key_of(convention)))
-    joint.fail("",
-               fmt::format("has no {0}, other joints have; give {0} = {{a, alpha, d, theta}} for every joint",
-                           key_of(convention)));
+    joint.fail("", fmt::format(
+                       "has no {0}, but other joints have; give {0} = {{a, alpha, d, theta}} for every joint",
+                       key_of(convention)));
   const TomlTable row = joint.table(key_of(convention));
   return {row.number("a", 0.0), row.number("alpha", 0.0), row.number("d", 0.0), row.number("theta", 0.0)};
 }

@@ -26,7 +26,7 @@ const toml::table& empty_table() {
 TomlTable TomlTable::parse(const std::string& text, const std::string& where) {
   if (const auto place = too_deep(text))
     throw Error(ErrorCode::usage, fmt::format("{}, line {}, column {}", where, place->line, place->column),
-                fmt::format("nests deeper than {} levels, which no option file does", kMostTomlNesting));
+                fmt::format("is nested deeper than {} levels, which no option file needs", kMostTomlNesting));
   try {
     auto root = std::make_shared<const toml::table>(toml::parse(text));
     return TomlTable(std::make_shared<Data>(Data{root, root.get(), where, "", {}, {}}));
@@ -115,7 +115,7 @@ void TomlTable::finish() const {
   for (const std::string& key : keys()) {
     if (data_->asked.count(key)) continue;
     const std::string near = nearest_word(key, asked);
-    fail(key, fmt::format("is not a key this table has; {}",
+    fail(key, fmt::format("is not a key of this table; {}",
                           !near.empty() ? fmt::format("did you mean \"{}\"?", near)
                                         : fmt::format("expected one of {}", fmt::join(asked, ", "))));
   }

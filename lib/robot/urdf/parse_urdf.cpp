@@ -77,13 +77,14 @@ std::optional<double> finite_number(const std::string& word) {
 std::optional<UrdfElement> UrdfElement::child(const std::string& name) const {
   const tinyxml2::XMLElement* first = element_->FirstChildElement(name.c_str());
   if (!first) return std::nullopt;
-  if (first->NextSiblingElement(name.c_str())) fail(fmt::format("has more than one <{}>; one counts", name));
+  if (first->NextSiblingElement(name.c_str()))
+    fail(fmt::format("has more than one <{}>; only one is allowed", name));
   return UrdfElement(*first, file_);
 }
 
 UrdfElement UrdfElement::required(const std::string& name) const {
   const auto found = child(name);
-  if (!found) fail(fmt::format("has no <{}>, which it needs", name));
+  if (!found) fail(fmt::format("has no <{}>, which is required", name));
   return *found;
 }
 
@@ -109,7 +110,7 @@ bool UrdfElement::has(const std::string& attribute) const {
 
 std::string UrdfElement::text(const std::string& attribute) const {
   const char* value = element_->Attribute(attribute.c_str());
-  if (!value || !*value) fail(fmt::format("has no {}, which it needs", attribute));
+  if (!value || !*value) fail(fmt::format("has no {}, which is required", attribute));
   return value;
 }
 
@@ -235,7 +236,8 @@ UrdfJoint joint_of(const UrdfElement& element, const Places& places) {
 /// Fails if another element of the kind has the same name.
 void take_name(Places& places, const std::string& name, const UrdfElement& element) {
   const auto number = static_cast<int>(places.size());
-  if (!places.emplace(name, number).second) element.fail("has the name of another one; names are given once");
+  if (!places.emplace(name, number).second)
+    element.fail("has the same name as another one; names must be unique");
 }
 
 UrdfModel model_of(const UrdfElement& root, const std::string& file) {
@@ -249,7 +251,7 @@ UrdfModel model_of(const UrdfElement& root, const std::string& file) {
   const auto children = root.children();
   for (const UrdfElement& element : children) {
     if (element.tag().rfind("xacro:", 0) == 0)
-      element.fail("is of xacro; expand the file first: xacro FILE > robot.urdf");
+      element.fail("is an xacro element; expand the file first: xacro FILE > robot.urdf");
     if (element.tag() != "link") continue;
     model.links.push_back(link_of(element));
     take_name(links, model.links.back().name, element);
@@ -275,14 +277,15 @@ void check_urdf_size(std::uintmax_t bytes, const std::string& file) {
 UrdfModel parse_urdf(const std::string& text, const std::string& file) {
   check_urdf_size(text.size(), file);
   if (text.find('\0') != std::string::npos)
-    throw Error(ErrorCode::input, file, "holds zero bytes, which are no XML; is it a URDF file?");
+    throw Error(ErrorCode::input, file,
+                "contains zero bytes, so it is not XML; check that it is a URDF file");
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
     throw Error(
         ErrorCode::input, fmt::format("{}, line {}", file, document.ErrorLineNum()),
         fmt::format("is not valid XML ({}); a URDF file is complete XML", words_of(document.ErrorID())));
   if (!document.RootElement())
-    throw Error(ErrorCode::input, file, "holds no element; a URDF begins with <robot>");
+    throw Error(ErrorCode::input, file, "contains no element; a URDF file begins with <robot>");
   return model_of(UrdfElement(*document.RootElement(), file), file);
 }
 

@@ -58,7 +58,7 @@ int root_of(const UrdfModel& model, const Tree& tree) {
   for (std::size_t l = 0; l < model.links.size(); ++l)
     if (tree.joint_to[l] == kNone) names.push_back(model.links[l].name), root = static_cast<int>(l);
   if (model.links.empty()) fail(model, "has no <link>; a robot has a base, links and joints");
-  if (names.empty()) fail(model, "has no base: every link is some joint's child, so they run in a circle");
+  if (names.empty()) fail(model, "has no base: every link is the child of a joint, so the links form a loop");
   if (names.size() > 1)
     fail(model, fmt::format("has several bases: {}; join them by fixed joints or leave out those that do not "
                             "belong to the robot",
@@ -95,13 +95,13 @@ Tree tree_of(const UrdfModel& model) {
   std::vector<std::string> lost;
   for (std::size_t l = 0; l < model.links.size(); ++l)
     if (!reached.count(static_cast<int>(l))) lost.push_back(model.links[l].name);
-  fail(model, fmt::format("has links that run in a circle, apart from the base: {}", listed(lost)));
+  fail(model, fmt::format("has links that form a loop apart from the base: {}", listed(lost)));
 }
 
 /// Returns the last joint of the longest chain of moving joints; fails if several chains are longest.
 int last_joint(const UrdfModel& model, const Tree& tree) {
   const int longest = *std::max_element(tree.depth.begin(), tree.depth.end());
-  if (longest == 0) fail(model, "has no joint that moves; expected revolute, continuous or prismatic ones");
+  if (longest == 0) fail(model, "has no moving joint; expected revolute, continuous or prismatic ones");
   std::vector<std::string> tips;
   int last = kNone;
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
@@ -127,7 +127,7 @@ void refuse(const UrdfModel& model, const UrdfJoint& joint) {
                      joint.type == UrdfJointType::planar ? "planar" : "floating"));
   if (joint.mimics)
     fail(model, joint,
-         "mimics another joint, so it is no axis of its own; make it fixed, or leave out its <mimic>");
+         "mimics another joint, so it is not an independent axis; make it fixed, or leave out its <mimic>");
 }
 
 std::vector<int> joints_to(const UrdfModel& model, const Tree& tree, int last) {

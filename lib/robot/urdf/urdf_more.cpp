@@ -82,10 +82,9 @@ void read_axes(Robot& robot, const TomlTable& table) {
 void read_more_links(Robot& robot, const TomlTable& table) {
   const auto links = table.tables("link");
   if (static_cast<int>(links.size()) != robot.joints())
-    table.fail("link",
-               fmt::format("expected one [[link]] for each of the {} moving joints of the file, found {}; "
-                           "were joints added or removed? Then leave out <faultline>",
-                           robot.joints(), links.size()));
+    table.fail("link", fmt::format("expected one [[link]] for each of the {} moving joints of the file, "
+                                   "found {}; if joints were added or removed, leave out <faultline>",
+                                   robot.joints(), links.size()));
   for (int i = 0; i < robot.joints(); ++i) {
     const TomlTable& link = links[i];
     robot.shapes[i] = link.choice_of("shape", {LinkShape::rod, LinkShape::point, LinkShape::general});

@@ -37,8 +37,8 @@ TEST(QuestionChange, TellsWhatColumnsMeanFromARowOn) {
        [](Log& log) { scale_behind(log.q[1], kDegrees), scale_behind(log.dq[1], kDegrees); }},
       {"in mm", [](Log& log) { scale_behind(log.q[2], 1e3), scale_behind(log.dq[2], 1e3); }},
       {"tau1 is in a unit", [](Log& log) { scale_behind(log.tau[0], 1e3); }},
-      {"tau2 has the other sign", [](Log& log) { scale_behind(log.tau[1], -1.0); }},
-      {"dq1 has the other sign", [](Log& log) { scale_behind(log.dq[0], -1.0); }},
+      {"tau2 has the opposite sign", [](Log& log) { scale_behind(log.tau[1], -1.0); }},
+      {"dq1 has the opposite sign", [](Log& log) { scale_behind(log.dq[0], -1.0); }},
       {"joints 1 and 2 are swapped", [](Log& log) {
          for (JointSignals* signals : {&log.q, &log.dq, &log.tau}) swap_behind((*signals)[0], (*signals)[1]);
        }}};

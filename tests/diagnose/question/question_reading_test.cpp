@@ -74,14 +74,14 @@ std::vector<WrongReading> wrong_readings() {
              std::swap(log.dq[0], log.dq[1]);
              std::swap(log.tau[0], log.tau[1]);
            }},
-          {"joint 3 counts the other way",
+          {"joint 3 counts in the opposite direction",
            [](Log& log) {
              scale_joint(log, 2, -1.0);
              scale(log.tau[2], -1.0);
            }},
           {"tau1 and tau2 are swapped", [](Log& log) { std::swap(log.tau[0], log.tau[1]); }},
-          {"tau2 has the other sign", [](Log& log) { scale(log.tau[1], -1.0); }},
-          {"q1 and dq1 have the other sign", [](Log& log) { scale_joint(log, 0, -1.0); }},
+          {"tau2 has the opposite sign", [](Log& log) { scale(log.tau[1], -1.0); }},
+          {"q1 and dq1 have the opposite sign", [](Log& log) { scale_joint(log, 0, -1.0); }},
           {"too late",
            [](Log& log) {
              for (auto& tau : log.tau) std::rotate(tau.rbegin(), tau.rbegin() + 20, tau.rend());

@@ -92,7 +92,7 @@ TEST(LogSurvey, VelocityInAnotherUnitIsNamedAndLeftOut) {
   ASSERT_NE(issues.find("velocity_disagrees_1"), nullptr);
   EXPECT_NE(issues.find("velocity_disagrees_1")->message.find("one of them is in degrees"),
             std::string::npos);
-  EXPECT_NE(issues.find("velocity_disagrees_3")->message.find("the other sign"), std::string::npos);
+  EXPECT_NE(issues.find("velocity_disagrees_3")->message.find("the opposite sign"), std::string::npos);
 }
 
 TEST(RawStretch, LostRowsAreBridgedWithoutAMeasurementAndLongGapsCut) {

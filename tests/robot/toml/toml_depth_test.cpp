@@ -33,13 +33,13 @@ TEST(TomlDepth, KeysOfManyDotsAreRefusedNotFollowed) {
         "x = [" + three + "text" + three + "\", {" + deep + " = 1}]", "# 'comment\n" + deep + " = 1",
         "x = '\\'\n" + deep + " = 1", "a" + repeated(" . \"a\"", 35000) + " = 1",
         "1" + repeated(".1", 35000) + "=1"})
-    EXPECT_NE(error_of("axes = \"RRP\"\n" + text).find("nests deeper than"), std::string::npos)
+    EXPECT_NE(error_of("axes = \"RRP\"\n" + text).find("is nested deeper than"), std::string::npos)
         << text.substr(0, 40);
 }
 
 TEST(TomlDepth, BracketsWithinBracketsAreRefusedNotFollowed) {
-  EXPECT_NE(error_of("x = " + repeated("[", 100000)).find("nests deeper than"), std::string::npos);
-  EXPECT_NE(error_of("x = " + repeated("{a=", 100000)).find("nests deeper than"), std::string::npos);
+  EXPECT_NE(error_of("x = " + repeated("[", 100000)).find("is nested deeper than"), std::string::npos);
+  EXPECT_NE(error_of("x = " + repeated("{a=", 100000)).find("is nested deeper than"), std::string::npos);
 }
 
 TEST(TomlDepth, PlaceIsNamed) {

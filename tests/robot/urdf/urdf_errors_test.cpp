@@ -104,7 +104,7 @@ TEST(UrdfErrors, TypesWithoutAMeaningInAChainAreRefused) {
   expect_error(robot(kPair + joint("j", "planar", "a", "b")), {"joint \"j\"", "is planar"});
   expect_error(robot(kPair + joint("j", "revolute", "a", "b", "<mimic joint='k'/>")),
                {"joint \"j\"", "mimics another joint"});
-  expect_error(robot(kPair + joint("j", "fixed", "a", "b")), {"no joint that moves"});
+  expect_error(robot(kPair + joint("j", "fixed", "a", "b")), {"no moving joint"});
 }
 
 TEST(UrdfErrors, LinksThatAreNoTreeAreNamed) {
@@ -112,19 +112,19 @@ TEST(UrdfErrors, LinksThatAreNoTreeAreNamed) {
   expect_error(robot(kPair), {"several bases: \"a\", \"b\""});
   expect_error(robot(kPair + joint("j", "revolute", "a", "c")), {"\"j\"", "child the link \"c\""});
   expect_error(robot(kPair + joint("j", "revolute", "a", "b") + joint("k", "revolute", "b", "a")),
-               {"no base", "in a circle"});
-  expect_error(robot(kPair + joint("j", "revolute", "a", "a")), {"in a circle", "\"a\""});
+               {"no base", "form a loop"});
+  expect_error(robot(kPair + joint("j", "revolute", "a", "a")), {"form a loop", "\"a\""});
   expect_error(
       robot(link("base") + kPair + joint("j", "revolute", "a", "b") + joint("k", "revolute", "b", "a")),
-      {"in a circle", "\"a\", \"b\""});
+      {"form a loop", "\"a\", \"b\""});
   expect_error(robot(kPair + link("c") + joint("j", "revolute", "a", "c") + joint("k", "revolute", "b", "c")),
                {"joint \"k\"", "child of joint \"j\""});
 }
 
 TEST(UrdfErrors, NamesAreGivenOnce) {
-  expect_error(robot(link("a") + link("a")), {"line 3, <link> \"a\"", "names are given once"});
+  expect_error(robot(link("a") + link("a")), {"line 3, <link> \"a\"", "names must be unique"});
   expect_error(robot(kPair + link("c") + joint("j", "fixed", "a", "b") + joint("j", "fixed", "b", "c")),
-               {"<joint> \"j\"", "names are given once"});
+               {"<joint> \"j\"", "names must be unique"});
   expect_error(robot(link("a", "<inertial/><inertial/>")), {"more than one <inertial>"});
 }
 
