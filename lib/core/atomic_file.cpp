@@ -92,7 +92,7 @@ std::string read_file(const std::string& path, std::size_t most_bytes) {
     if (bytes.size() > most_bytes)
       throw Error(ErrorCode::input, path,
                   "is larger than " + std::to_string(most_bytes >> 20) +
-                      " MiB, or a device without end; no " + "file of this kind is");
+                      " MiB, the limit for this kind of file, or a device without end");
   }
   if (file.bad()) throw Error(ErrorCode::input, path, "cannot be read to its end");
   return bytes;

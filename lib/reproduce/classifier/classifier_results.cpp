@@ -37,9 +37,9 @@ For held and pd that posterior is what no classifier of a pattern (q, dq, torque
 better than, but for the linearisation at sigma .1. Under held the first torque of a quintic from rest is
 zero, so that a free joint 1, a free joint 2 and a healthy robot do the same for one sample in ten: this alone
 leaves {}, and no recipe can come near the paper's training error there. For fast the torque between two
-samples is not in the log; what it adds is taken as Gaussian, as learned from similar patterns of each class,
-which makes that row a yardstick and no bound. So are the rows with the next torque, between which and the
-first the torque is taken to move straight.
+samples is not in the log; its contribution is treated as Gaussian, as learned from similar patterns of each
+class, which makes that row a yardstick and no bound. So are the rows with the next torque, between which and
+the first the torque is assumed to be a straight line.
 
 The torque of the next sample, which the best recipe also reads, adds information to the pattern: the
 controller of this protocol reads the state without noise, so its torque shows what noise hides in the reading.

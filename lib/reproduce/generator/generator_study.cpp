@@ -29,13 +29,13 @@ friction.)";
 constexpr const char* kLessons =
     R"(With the same network and patterns Levenberg-Marquardt leaves a small part of the error of
 back-propagation. The torque at the later sample helps where the torque is not held. True physics is exact
-when it is held; else the torque between samples is taken for a straight line, which is as good as the log
+when it is held; else the torque between samples is treated as a straight line, which is as good as the log
 allows under fast, and poor under pd, whose torque decays within a sample.
 
 The paper's trajectories start at rest and make one move. For held and fast this is about as hard as runs. For
 pd it is much easier: the set-point jumps exactly at the first sample, and the network learns what follows. In
 runs it jumps between two samples, where the inputs do not show it. The worst {:.1f} % of the samples of these
-runs, as many as hold a jump, have {:.1f} % of the error of the 9-49-6 network, and {} is left on the others;
+runs, as many as hold a jump, have {:.1f} % of the error of the 9-49-6 network, and {} remains on the others;
 training on runs does not help. Networks that see the next torque and were trained on single moves are misled
 by the jump.)";
 
@@ -51,7 +51,7 @@ generator.)";
 
 constexpr const char* kFriction =
     R"(The same on a robot with viscous and Coulomb friction in every joint. "Identified" is from logs alone:
-{} healthy runs of {:g} s without noise, logged every 73 ms, and a robot file that says RRP and the length of
+{} healthy runs of {:g} s without noise, logged every 73 ms, and a robot file that gives RRP and the length of
 link 1. Masses, inertias, friction and, where the torque is not held, its timing between samples (one share
 for all joints) come from multiple shooting on the {} rows that move most. Only the width over which Coulomb
 friction changes sign stays at the default, which the simulator has too. The rows with 1 kHz take one run of
@@ -62,8 +62,8 @@ A model that is 5 % off and has no friction is worse than predicting no change; 
 leaves {} under fast, the larger MLP alone {}. Identified physics leaves {} there, no more than true
 parameters do: the rest is the torque between samples, which is why a log at 1 kHz does not lower it. The
 network takes part of that and leaves {}. Under pd one timing for all joints does not describe the torque
-between samples; identified from 73 ms, masses are bent to fit, and the network mends that for the motion it
-was trained on but not in runs, where set-points jump between samples.)";
+between samples; identified from 73 ms, masses are distorted by the fit, and the network corrects that for the
+motion it was trained on but not in runs, where set-points jump between samples.)";
 
 /// 3.4e-3 rather than 3.4e-03.
 std::string scientific(double value) {

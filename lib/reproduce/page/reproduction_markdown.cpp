@@ -74,11 +74,11 @@ std::string how_made(const ReproduceOptions& options) {
 std::string paper_introduction() {
   return R"(The paper, "Robust fault diagnosis in robotic manipulators", lets a multi-layer perceptron
 predict position and velocity of a three-axis SCARA robot one sample ahead, calls the difference from what
-was measured the residual, and lets an MLP or a radial basis function network (RBFN) tell from the velocity
-residual which joint swings freely. Its second approach asks both networks and settles their answers by
-case-based reasoning.
+was measured the residual, and lets an MLP or a radial basis function network (RBFN) determine from the
+velocity residual which joint swings freely. Its second approach queries both networks and combines their
+answers by case-based reasoning.
 
-## How the paper was made definite
+## Assumptions of the reproduction
 
 The paper gives no masses, lengths, joint ranges, controller or unit of its noise. What was used here:
 
@@ -87,16 +87,16 @@ The paper gives no masses, lengths, joint ranges, controller or unit of its nois
   joint.
 - **Motion**: random point-to-point moves of 1.2 to 1.8 s. A *trajectory* (the paper's training and test sets)
   is one such move from rest, then rest. A *run* is many of them, each followed by a rest of up to 0.4 s.
-- **Controller**, in three readings that are named with every number. *held*: computed torque along quintic
+- **Controller**, in three variants that are named with every number. *held*: computed torque along quintic
   moves, the torque constant over each sample. *fast*: the same at 1 kHz, logged every 73 ms, so that the
   torque between two samples is not in the log. *pd*: PD control with gravity compensation at 1 kHz after
   set-points that jump.
 - **Noise**: "variance = 0.01" is read as a standard deviation of 0.01 or of 0.1 of half the range of each
   position and velocity. It is added to what was measured; the controller does not see it. The torque is the
   commanded one.
-- **Errors** are mean squares in units of half ranges: of q as asked for, of dq as seen in 100 healthy
+- **Errors** are mean squares in units of half ranges: of q as commanded, of dq as observed in 100 healthy
   trajectories.
-- **Fault**: from its onset on no torque reaches the joint, while the controller goes on asking for it.
+- **Fault**: from its onset on no torque reaches the joint, while the controller continues to command it.
 
 Every set is drawn from seeds of its own. Networks learn from training sets; g, thresholds and the choice
 between recipes come from tuning sets; what is printed was measured once, on test sets.
@@ -167,7 +167,7 @@ std::string paper_errata() {
 
 std::string reproduction_markdown(const Reproduction& reproduction) {
   std::string text = "# The paper, reproduced\n\n" + how_made(reproduction.options) + paper_introduction();
-  text += "## What was to be reached\n\n" + goals_text(reproduction.goals);
+  text += "## Targets and results\n\n" + goals_text(reproduction.goals);
   text += "## Tables\n\n";
   for (const ResultTable& table : reproduction.tables)
     if (!is_trade_off(table)) text += table_text(table);

@@ -61,7 +61,7 @@ Figure figure_of(const ResultTable& table, const std::string& recipe, std::size_
   const std::string title = table.title + ": " + recipe;
   Figure figure{
       fmt::format("{}_{}", table.id, number),
-      fmt::format("**{}.** {} Where there were no false alarms their curve ends.", title, table.text),
+      fmt::format("**{}.** {} The curve of false alarms ends where there were none.", title, table.text),
       {.title = title, .x_label = "g, samples", .panels = {}, .marks = {}, .panel_height = 110}};
   for (std::size_t i = 0; i < table.figure_columns.size(); ++i)
     figure.plot.panels.push_back(panel_of(table, recipe, i));

@@ -54,9 +54,9 @@ void add_row(std::vector<Goal>& goals, const Bounds& bounds, const char* detecto
 constexpr const char* kWhyNotBetter =
     R"(The interval does not lie below 0. Summing log odds already removes single wrong samples, so that each
 network alone has next to no false alarms, and after the onset both name the same class in {:.1f} % of the
-samples: little is left for cases to settle. Where one network is slow, as the RBFN at noise 0.1, asking it
-costs the faster one some of its lead; an average hears both at every sample. All of this is within some tens
-of milliseconds, and a sample is 73 ms. The table dual_held has every difference.)";
+samples: the cases have little to decide. If one network is slow, as the RBFN at noise 0.1, waiting
+for it costs the faster one some of its lead; an average uses both at every sample. All of this is within some
+tens of milliseconds, and a sample is 73 ms. The table dual_held has every difference.)";
 
 /// Over the runs of all seeds, at the noise of index `sigma`; %.
 double agreement_percent(const ControllerResults& results, std::size_t sigma) {

@@ -15,7 +15,7 @@ trains on torque-space residuals and ratios, on faults at any time, with the noi
 motion comes from )";
   text += controller == ControllerReading::held
               ? "the physics of the robot identified from three healthy logs of 2 min.\n\n"
-              : R"(a 12-49-6 network trained with that noise, since physics does not know what the torque did
+              : R"(a 12-49-6 network trained with that noise, since physics does not describe the torque
 between two samples.
 
 )";
@@ -46,7 +46,7 @@ false alarms. Differences are *both and cases* minus the other, over the runs of
 interval of a paired bootstrap over runs; a run without alarm counts with a delay of 6 s. An interval that
 excludes 0 is a difference that the runs prove. *g in a row* decides at each sample (the naive reading of
 figure 2), *summed log odds* at the level of the episode: a network that has summed up enough names its fault,
-and where the other does not agree, similar cases say fault or false alarm.)";
+and if the other does not agree, similar cases decide between fault and false alarm.)";
 }
 
 }  // namespace faultline::run_texts
