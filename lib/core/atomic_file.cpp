@@ -81,7 +81,7 @@ void write_file(const std::string& path, std::string_view bytes) {
 std::string read_file(const std::string& path, std::size_t most_bytes) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
-    throw Error(ErrorCode::input, path, "is a directory, a file was expected");
+    throw Error(ErrorCode::input, path, "is a directory; a file was expected");
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw Error(ErrorCode::input, path, std::string("cannot be opened (") + std::strerror(errno) + ")");

@@ -54,7 +54,9 @@ std::string sha256_of_file(const std::string& path) {
   const bool failed = std::ferror(file) != 0;
   std::fclose(file);
   if (failed)
-    throw Error(ErrorCode::input, path, "cannot be read to its end; is it a directory or on a bad disk?");
+    throw Error(
+        ErrorCode::input, path,
+        "cannot be read to its end; check that it is not a directory and that the disk has no errors");
   return hash.hex();
 }
 

@@ -48,7 +48,7 @@ Mlp mlp_from_json(const json& in, const std::string& where) {
     if (layer.weights.size() == 0 || layer.bias.size() != layer.weights.rows() ||
         (l > 0 && layer.weights.cols() != mlp.layers.back().weights.rows()))
       throw Error(ErrorCode::input, here,
-                  fmt::format("{} x {} weights and {} biases do not fit each other or the layer before",
+                  fmt::format("{} x {} weights and {} biases do not match each other or the layer before",
                               layer.weights.rows(), layer.weights.cols(), layer.bias.size()));
     mlp.layers.push_back(std::move(layer));
   }
@@ -71,7 +71,7 @@ Rbfn rbfn_from_json(const json& in, const std::string& where) {
     throw Error(
         ErrorCode::input, where,
         fmt::format(
-            "{} x {} centres, {} x {} inverse radii, {} x {} weights and {} biases do not fit each other",
+            "{} x {} centres, {} x {} inverse radii, {} x {} weights and {} biases do not match each other",
             rbfn.centres.rows(), rbfn.centres.cols(), rbfn.inverse_radii.rows(), rbfn.inverse_radii.cols(),
             rbfn.weights.rows(), rbfn.weights.cols(), rbfn.bias.size()));
   return rbfn;

@@ -40,11 +40,10 @@ class Descriptor {
 };
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& what) {
-  throw Error(
-      ErrorCode::input, path.string(),
-      what +
-          "; in this folder, which may come from somebody else, only regular files in real folders are "
-          "used. Put a copy of the file there");
+  throw Error(ErrorCode::input, path.string(),
+              what +
+                  "; in this folder, which may come from another person, only regular files in real folders "
+                  "are used. Put a copy of the file there");
 }
 
 [[noreturn]] void refuse_to_open(const fs::path& path) {
@@ -60,8 +59,8 @@ bool is_there(const Descriptor& in, const std::string& name, const fs::path& pat
     refuse_to_open(path);
   }
   if (S_ISLNK(facts.st_mode)) refuse(path, "is a symbolic link");
-  if (is_folder && !S_ISDIR(facts.st_mode)) refuse(path, "is no folder");
-  if (!is_folder && S_ISDIR(facts.st_mode)) refuse(path, "is a folder, a file was expected");
+  if (is_folder && !S_ISDIR(facts.st_mode)) refuse(path, "is not a folder");
+  if (!is_folder && S_ISDIR(facts.st_mode)) refuse(path, "is a folder; a file was expected");
   if (!is_folder && !S_ISREG(facts.st_mode)) refuse(path, "is a pipe, a socket or a device");
   return true;
 }
@@ -73,7 +72,7 @@ Descriptor opened(const Descriptor& in, const std::string& name, const fs::path&
   if (file < 0) refuse_to_open(path);
   struct stat facts {};
   if (!is_folder && (::fstat(file, &facts) != 0 || !S_ISREG(facts.st_mode)))
-    refuse(path, "is no regular file");
+    refuse(path, "is not a regular file");
   return file;
 }
 
@@ -101,8 +100,9 @@ std::string all_of(const Descriptor& file, const std::string& path, std::size_t 
     if (got == 0) return bytes;
     bytes.append(piece, static_cast<std::size_t>(got));
     if (bytes.size() > most_bytes)
-      throw Error(ErrorCode::input, path,
-                  "is larger than " + std::to_string(most_bytes >> 20) + " MiB; no file of this kind is");
+      throw Error(
+          ErrorCode::input, path,
+          "is larger than " + std::to_string(most_bytes >> 20) + " MiB, the limit for this kind of file");
   }
 }
 
@@ -119,7 +119,7 @@ bool has_inner_folder(const std::string& folder, const std::string& path) {
 std::string read_inner_file(const std::string& folder, const std::string& path, std::size_t most_bytes) {
   const std::string whole = (fs::path(folder) / path).string();
   const Descriptor file = open_inner(folder, path);
-  if (file < 0) throw Error(ErrorCode::input, whole, "is not there");
+  if (file < 0) throw Error(ErrorCode::input, whole, "does not exist");
   return all_of(file, whole, most_bytes);
 }
 

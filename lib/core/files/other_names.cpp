@@ -21,8 +21,8 @@ void refuse_other_names(const std::string& path) {
   struct stat facts {};
   if (::stat(path.c_str(), &facts) == 0 && is_known_by_several(facts))
     throw Error(ErrorCode::output, path,
-                "is known under another name, too (a hard link), and what is written here would change that "
-                "file as well; nothing was changed. Put a copy of the file in its place");
+                "has another name as well (a hard link), and writing here would change that file, too; "
+                "nothing was changed. Replace it by a copy of the file");
 }
 
 }  // namespace faultline

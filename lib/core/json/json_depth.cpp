@@ -17,8 +17,8 @@ void refuse_deep_json(std::string_view json, const std::string& where) {
     } else if (!quoted && (c == '[' || c == '{')) {
       if (++open > kMostJsonNesting)
         throw Error(ErrorCode::input, where,
-                    "nests lists and objects deeper than " + std::to_string(kMostJsonNesting) +
-                        " levels, which no file of faultline does; restore it or make it again");
+                    "nests lists and objects more deeply than " + std::to_string(kMostJsonNesting) +
+                        " levels, unlike any file of faultline; restore it or create it again");
     } else if (!quoted && (c == ']' || c == '}')) {
       --open;
     }
