@@ -102,8 +102,8 @@ std::vector<std::string> drive_limit_spots(const std::vector<SignalRelation>& re
     const SignalRelation& drive = relations[i];
     if (drive.kind != RelationKind::actuator || !(beyond_s[i] > 0.0)) continue;
     spots.push_back(fmt::format(
-        "For {1:.2g} s the command of joint {0}, or its rate of change, lies beyond those of healthy logs, in which the "
-        "drive gave {2:.3g} to {3:.3g} {4}: whether the drive followed it is not judged.",
+        "For {1:.2g} s the command of joint {0}, or its rate of change, is outside the range of the healthy "
+        "logs, in which the drive gave {2:.3g} to {3:.3g} {4}: whether the drive followed it is not judged.",
         drive.joint + 1, beyond_s[i], drive.low, drive.high, torque_unit(chain.geometry[drive.joint].kind)));
   }
   return spots;

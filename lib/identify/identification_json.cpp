@@ -329,7 +329,7 @@ template <typename Read>
 Identification checked(const Json& document, const std::string& where, Read read_document) {
   if (!document.is_object() || document.value("schema", "") != kSchema)
     throw Error(ErrorCode::input, where,
-                fmt::format("is no identification of schema {}; identify again", kSchema));
+                fmt::format("is not an identification of schema {}; identify again", kSchema));
   try {
     return read_document(document, where);
   } catch (const nlohmann::json::exception& e) {

@@ -207,7 +207,7 @@ BalanceModel balance_from_json(const nlohmann::json& json, const std::string& wh
   check_sizes(where, day_layout(m.rigid).count(), {m.day_variance.size()});
   check_sizes(where, m.rigid.base(), {m.payload.rows()});
   for (const RippleRate& ripple : m.setting.ripples)
-    if (ripple.joint < 0 || ripple.joint >= n) refuse_damaged(where, "a ripple belongs to no joint");
+    if (ripple.joint < 0 || ripple.joint >= n) refuse_damaged(where, "a ripple has no valid joint");
   if (m.setting.decimation < 1) refuse_damaged(where, "its rows lie less than a sample apart");
   return m;
 }

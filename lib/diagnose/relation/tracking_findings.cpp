@@ -56,7 +56,7 @@ bool rests_as_asked(const RelationEpisode& episode) {
 
 EvidenceItem difference(const RelationEpisode& episode, const Chain& chain) {
   return {fmt::format("{}_difference", what_strayed(episode)), episode.strongest, unit_of(episode, chain),
-          fmt::format("difference of the {} where it is clearest", what_strayed(episode))};
+          fmt::format("difference of the {} at its clearest moment", what_strayed(episode))};
 }
 
 std::string next_check_of(int joint) {

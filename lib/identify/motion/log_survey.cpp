@@ -186,13 +186,13 @@ Issues TorqueLimits::issues() const {
     for (const auto& [extreme, sign] : {std::pair{high_[j], 1.0}, std::pair{low_[j], -1.0}})
       if (static_cast<double>(extreme.rows) > kLimitShare * static_cast<double>(rows_) &&
           extreme.value != 0.0)
-        out.add(make_issue(
-            "torque_limit", Severity::warning,
-            fmt::format("tau{} stands at its limit of {:g} in {:.0f} % of the rows: a torque clipped by the "
-                        "drive or by the log is not the torque that moved the robot",
-                        joint + 1, sign * extreme.value,
-                        100.0 * static_cast<double>(extreme.rows) / static_cast<double>(rows_)),
-            channel(joint)));
+        out.add(
+            make_issue("torque_limit", Severity::warning,
+                       fmt::format("tau{} is at its limit of {:g} in {:.0f} % of the rows: a torque clipped "
+                                   "by the drive or by the log is not the torque that moved the robot",
+                                   joint + 1, sign * extreme.value,
+                                   100.0 * static_cast<double>(extreme.rows) / static_cast<double>(rows_)),
+                       channel(joint)));
   }
   return out;
 }

@@ -58,7 +58,7 @@ void judge_stuck(const CheckupResult& checkup, const LogQuality& quality, Issues
     const SameValue& same = one.course.while_moving;
     if (!can_stick(one) || same.moved < usual_motion(one, checkup, quality)) continue;
     issues.add({"stuck_channel", to_string(one.channel), Severity::warning,
-                fmt::format("stands at {:.6g} for {:.4g} s from {:.10g} s on, {} rows, while according to {} "
+                fmt::format("stays at {:.6g} for {:.4g} s from {:.10g} s on, {} rows, while according to {} "
                             "the joint moved by {:.3g}{}",
                             same.value, same.length_s, same.start_s, same.rows,
                             one.channel.quantity == Quantity::q ? "its velocity" : "its position", same.moved,
