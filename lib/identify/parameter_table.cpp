@@ -39,8 +39,9 @@ std::string why_offset(const Identification& id, int p, const TableFacts& facts)
 std::string why_width(const Identification& id, int p, const TableFacts& facts) {
   const std::string reason =
       id.method == IdentifyMethod::weak_form ? "the momentum balance hardly depends on it"
-      : !facts.fast ? fmt::format("no log has a sample period below {:g} s", kShowsFriction_s)
-                    : "the logs do not determine this joint's Coulomb friction, or the options do not fit it";
+      : !facts.fast
+          ? fmt::format("no log has a sample period below {:g} s", kShowsFriction_s)
+          : "the logs do not determine this joint's Coulomb friction, or the options exclude it from the fit";
   return fmt::format("left at {:g}: {}", elementary::exp(id.estimate[p]), reason);
 }
 
