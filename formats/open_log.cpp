@@ -25,10 +25,10 @@ std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed) {
     if (format.matches(bytes->head())) return format.open(std::move(bytes));
   if (bytes->head().starts_with(kParquetMagic))
     throw Error(ErrorCode::input, path,
-                "is a Parquet file, which is not read directly; convert it, in Python by "
+                "is a Parquet file, which cannot be read directly; convert it, in Python with "
                 "pandas.read_parquet(\"run.parquet\").to_csv(\"run.csv\", index=False)");
   throw Error(ErrorCode::input, path,
-              "is of no known format: it is binary, but none of " + either_of(log_extensions()) +
+              "has an unknown format: it is binary, but not " + either_of(log_extensions()) +
                   ". Export it as CSV in UTF-8");
 }
 

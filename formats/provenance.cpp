@@ -76,7 +76,8 @@ Issue issue_from_provenance(std::string_view text) try {
   return make_issue("source_damaged", severe ? Severity::severe : Severity::warning, message);
 } catch (const Json::exception&) {
   return make_issue("provenance_damaged", Severity::severe,
-                    "the log was converted from a damaged one; what it says of that cannot be read");
+                    "the log was converted from a damaged log, but its description of the damage cannot be "
+                    "read");
 }
 
 }  // namespace faultline

@@ -78,16 +78,15 @@ class ArrayReader : public RawReader {
   void refuse_pipe() const {
     std::error_code error;
     if (!std::filesystem::is_regular_file(identity_.path, error))
-      throw Error(
-          ErrorCode::input, identity_.path,
-          "is no file but a pipe or a device, and arrays are not read in their order; copy it to a file");
+      throw Error(ErrorCode::input, identity_.path,
+                  "is a pipe or a device, but array formats need random access; copy it to a file");
   }
 
   /// Throws Error(input) if no array could be read; the reason is the first issue.
   void refuse_damaged(const ArrayFile& file) const {
     if (arrays_.empty() && !file.issues().empty())
       throw Error(ErrorCode::input, identity_.path,
-                  "has no array that can be read: " + file.issues().all().front().message);
+                  "holds no readable array: " + file.issues().all().front().message);
   }
 
   /// Returns the arrays of the file with the channel names of the log that was written to it.
@@ -120,7 +119,7 @@ class ArrayReader : public RawReader {
       if (lost > 0)
         for (std::size_t c = 0; c < used.columns; ++c)
           tell_column(opening_, "file_truncated", used.first_column + c, used.rows_held, lost,
-                      "the file ends before its values from there on");
+                      "the file ends before them");
     }
   }
 
@@ -207,7 +206,7 @@ class ArrayReader : public RawReader {
                    const std::string& why) const {
     const std::string& name = table_.columns[column].name;
     issues.add({code, name, Severity::severe,
-                fmt::format("values of \"{}\" could not be read from row {} on: {}; they are missing",
+                fmt::format("values of \"{}\" could not be read from row {} on and count as missing: {}",
                             shortened(name, kLongestName), row + 1, why),
                 row + 1, kNan, count});
   }
@@ -242,9 +241,9 @@ class ArrayReader : public RawReader {
     at_end_ = true;
     rows_cut_ = table_.rows - table_.rows_held;
     if (rows_cut_ > 0)
-      drop(
-          "file_truncated", rows_cut_,
-          fmt::format("the file ends, though it promises {} rows; {} were left out", table_.rows, rows_cut_));
+      drop("file_truncated", rows_cut_,
+           fmt::format("the file ends before the {} rows that it declares; {} were left out", table_.rows,
+                       rows_cut_));
     file_->finish();
     for (const Issue& issue : file_->issues().all())
       if (!opening_.find(issue.code, issue.channel)) issues_.add(issue);

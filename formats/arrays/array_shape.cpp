@@ -63,16 +63,15 @@ std::string why_no_table(const std::vector<NamedArray>& arrays) {
   if (all([&](const NamedArray& array) { return is_empty(array) || is_deep(array); }) && !all(is_deep))
     return "has no rows: its arrays are empty, so nothing was recorded" + found;
   if (all(is_deep))
-    return "holds no table: its arrays have three dimensions or more, but a log has a vector of times and rows x "
-           "joints of positions" +
+    return "holds no table: its arrays have three dimensions or more, but a log needs a vector of times "
+           "and a matrix of positions (rows x joints)" +
            found;
   if (all([&](const NamedArray& array) { return array.unwritten || is_deep(array) || is_empty(array); }))
-    return "has room for rows, but none was written: the recorder ended before it stored the first ones" +
+    return "has space for rows, but none was written: the recorder stopped before it stored the first rows" +
            found;
   if (all(is_wide))
     return fmt::format(
-               "holds no table of a log: an array is one with at most {} columns and as many rows as there are "
-               "times",
+               "holds no table of a log: such a table has at most {} columns and one row for each time",
                kMostArrayColumns) +
            found;
   return "is cut before its first row; nothing can be read from it" + found;

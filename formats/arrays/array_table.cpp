@@ -99,7 +99,7 @@ class TableMaker {
                                  [](const NamedArray& array) { return !squeezed(array.shape).empty(); });
     if (!any)
       throw Error(ErrorCode::input, path_,
-                  "holds no array of numbers; a log has an array of times and one of positions at least");
+                  "holds no array of numbers; a log needs at least an array of times and one of positions");
     table_.rows = rows_of(arrays_);
     std::vector<std::size_t> order(arrays_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -210,7 +210,7 @@ class TableMaker {
                                             [](const NamedArray* array) { return !looks_recorded(*array); });
     tell_left_out("array_left_out", Severity::note, {left_out_.begin(), lost}, "");
     tell_left_out("signal_left_out", Severity::warning, {lost, left_out_.end()},
-                  "; write signals of another length into a file of their own and --join it by time");
+                  "; write signals of another length into a separate file and --join it by time");
   }
 
   void tell_left_out(const char* code, Severity severity, const std::vector<const NamedArray*>& arrays,
@@ -219,8 +219,8 @@ class TableMaker {
     const bool one = arrays.size() == 1;
     table_.issues.add(
         make_issue(code, severity,
-                   fmt::format("{} {} no table of {} rows, and {} left out{}", listed_arrays(arrays),
-                               one ? "fits" : "fit", table_.rows, one ? "was" : "were", advice)));
+                   fmt::format("{} {} not fit a table of {} rows and {} left out{}", listed_arrays(arrays),
+                               one ? "does" : "do", table_.rows, one ? "was" : "were", advice)));
   }
 
   void find_time() {
@@ -244,8 +244,8 @@ class TableMaker {
     if (found > 1)
       table_.issues.add(
           make_issue("several_clocks", Severity::warning,
-                     clocks + " look like times; one is taken for all rows. If the others' signals were "
-                              "sampled at other times, write them into files of their own and --join "
+                     clocks + " look like times; the log uses one of them for all rows. If other signals "
+                              "were sampled at other times, write these into separate files and --join "
                               "them by time"));
   }
 

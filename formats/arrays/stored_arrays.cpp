@@ -171,8 +171,8 @@ void StoredArrays::fetch(std::size_t content, StreamKey key, std::int64_t at, st
   region_.wanted = count;
   if (count > kMostRegionBytes)
     file_->fail(
-        fmt::format("has records of {} MiB, more than the {} MiB that are read at once; save the columns of "
-                    "the log as arrays of their own",
+        fmt::format("has records of {} MiB, more than the {} MiB that can be read at once; save each "
+                    "column of the log as a separate array",
                     count >> 20, kMostRegionBytes >> 20));
   region_.bytes.resize(std::max(region_.bytes.size(), count));
   if (const std::string* bytes = in_memory(content)) {
@@ -243,8 +243,8 @@ void StoredArrays::read(const ArrayBand& band, BandValues& values) {
 void StoredArrays::tell_mismatch(const std::string& name) {
   list_.issues.add(make_issue(
       "checksum_mismatch", Severity::severe,
-      fmt::format("the checksum of \"{}\" does not match its numbers, of which some are wrong; which ones "
-                  "cannot be told",
+      fmt::format("the checksum of \"{}\" does not match its numbers; some of them are wrong, but the file "
+                  "does not show which",
                   shortened(name, kLongestName)),
       name));
 }

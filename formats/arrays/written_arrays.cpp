@@ -90,8 +90,8 @@ std::string WrittenArrays::notes() const {
 void refuse_pipe_for(const std::string& path, const std::string& format) {
   if (output_place(path).special)
     throw Error(ErrorCode::output, path,
-                "is no file but a pipe or a device, and " + format +
-                    " is put together in a file; write a file, or .csv there");
+                "is a pipe or a device, but " + format +
+                    " can be written to a file only; name a file, or write .csv there");
 }
 
 }  // namespace faultline

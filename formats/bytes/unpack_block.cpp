@@ -103,7 +103,8 @@ bool unpack_block(BlockPacking packing, std::string_view packed, std::uint64_t p
 
 std::string too_large_block(std::uint64_t bytes) {
   return fmt::format(
-      "it takes {} MiB, more than the {} MiB that are read at once; write the recording again in smaller chunks",
+      "it takes {} MiB, more than the {} MiB that can be read at once; write the recording again in "
+      "smaller chunks",
       bytes >> 20, kLargestBlock >> 20);
 }
 

@@ -47,7 +47,7 @@ class GzipUnpacker : public Unpacker {
   void step() {
     const std::string_view packed = input_.view();
     if (between_members_ && (packed.empty() || static_cast<unsigned char>(packed[0]) != kFirstByte))
-      return end(packed.empty() ? "" : "bytes that are no gzip follow");
+      return end(packed.empty() ? "" : "bytes that are not gzip follow");
     if (packed.empty()) return end("the file is cut");
     if (between_members_) inflateReset(&stream_);
     between_members_ = false;
@@ -64,10 +64,9 @@ class GzipUnpacker : public Unpacker {
   void end(const char* why) {
     ended_ = true;
     if (*why == '\0') return;
-    damage_ = fmt::format(
-        "the gzip stream: {} at byte {}; what was unpacked before is read, what comes "
-        "behind is lost",
-        why, input_.position());
+    damage_ =
+        fmt::format("the gzip stream: {} at byte {}; the data before it are read, the data after it are lost",
+                    why, input_.position());
   }
 
   PackedInput input_;
@@ -111,10 +110,9 @@ class ZstdUnpacker : public Unpacker {
   void end(const char* why) {
     ended_ = true;
     if (*why == '\0') return;
-    damage_ = fmt::format(
-        "the zstd stream: {} at byte {}; what was unpacked before is read, what comes "
-        "behind is lost",
-        why, input_.position());
+    damage_ =
+        fmt::format("the zstd stream: {} at byte {}; the data before it are read, the data after it are lost",
+                    why, input_.position());
   }
 
   PackedInput input_;

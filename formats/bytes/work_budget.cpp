@@ -9,8 +9,8 @@ void WorkBudget::refuse() const {
   throw Error(
       ErrorCode::input, path_,
       "holds far more rows or unpacked bytes than a log of its size (over 2 us of work for each byte of "
-      "the file), and was not read on. If it is a log all the same, unpack it first, or write it again "
-      "without compression and without parts that are no log");
+      "the file), so reading stopped. If it is a log, unpack it first, or write it again without "
+      "compression and without parts that hold no log");
 }
 
 }  // namespace faultline

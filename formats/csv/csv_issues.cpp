@@ -27,14 +27,13 @@ void CsvIssues::start() {
   if (!dialect_.time_note.empty())
     issues_.add({"time_unit_assumed", "t", Severity::note, dialect_.time_note});
   if (dialect_.names_in_rows)
-    issues_.add(
-        {"names_in_rows", "", Severity::note,
-         "there is no header; each value has its name before it, and these were taken as column names"});
+    issues_.add({"names_in_rows", "", Severity::note,
+                 "the file has no header; the name before each value is used as the name of its column"});
   else if (!dialect_.has_header)
     issues_.add(
         {"no_header", "", Severity::warning,
-         "there is no header; columns are called column1, column2 and so on. Say what they are in the robot "
-         "file, such as [log.columns] q1 = {name = \"column2\"}"});
+         "the file has no header; its columns are called column1, column2 and so on. Assign them in the "
+         "robot file, such as [log.columns] q1 = {name = \"column2\"}"});
 }
 
 void CsvIssues::add_text(const CsvPlace& place, int column, int field, std::string_view cell) {
@@ -45,7 +44,7 @@ void CsvIssues::add_text(const CsvPlace& place, int column, int field, std::stri
   }
   has_text_[column] = true;
   issues_.add({"not_a_number", name, Severity::warning,
-               fmt::format("{}, column {} \"{}\": \"{}\" is no number; taken as missing", words(place),
+               fmt::format("{}, column {} \"{}\": \"{}\" is not a number; treated as missing", words(place),
                            field + 1, shortened(name, kLongestName), shortened(cell, kLongestName)),
                place.row + 1});
 }

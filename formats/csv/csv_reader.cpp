@@ -81,7 +81,7 @@ bool LineBuffer::fill() {
     }
     if (end_ > kLongestLine)
       throw Error(ErrorCode::input, bytes_.path(),
-                  "has a line of more than 16 MiB; a log in text has short lines");
+                  "has a line of more than 16 MiB; write one sample on each line");
     const std::size_t needed = end_ + kBlock + 1 + 2 * kNumberMargin;
     if (bytes_read_.size() < needed) bytes_read_.resize(needed);
     const std::size_t got = bytes_.read(text() + end_, kBlock);
@@ -130,8 +130,8 @@ std::string_view whole_lines_head(ByteSource& bytes) {
     longest = longest_line(bytes.head());
   if (longest > kLongestHeadLine)
     throw Error(ErrorCode::input, bytes.path(),
-                "has a line of more than 1 MiB near its beginning, where the names of the columns stand; "
-                "write the names in one line, and one line a sample");
+                "has a line of more than 1 MiB near its beginning, where the names of the columns are "
+                "expected; write the names on one line, then one sample on each line");
   return bytes.head();
 }
 
@@ -183,8 +183,8 @@ void CsvReader::refuse_many_columns() const {
   if (dialect_.fields > kMostFields)
     throw Error(
         ErrorCode::input, bytes_->path(),
-        fmt::format("has more than {} columns, which no log has; write one line a sample, and only the "
-                    "columns of the joints",
+        fmt::format("has more than {} columns, the most that a log may have; write one sample on each "
+                    "line, with only the columns of the joints",
                     kMostFields));
 }
 
@@ -207,7 +207,7 @@ void CsvReader::refuse_duplicates() const {
     const auto [before, fresh] = seen.emplace(dialect_.columns[i].name, field);
     if (!fresh)
       throw Error(ErrorCode::input, bytes_->path(),
-                  fmt::format("has two columns named \"{}\", the {}. and the {}.; give each its own name",
+                  fmt::format("has two columns named \"{}\", columns {} and {}; give each its own name",
                               shortened(before->first, kLongestName), before->second, field));
   }
 }

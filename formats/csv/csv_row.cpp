@@ -159,7 +159,10 @@ CsvRow CsvRowReader::read_line(std::string_view line, const CsvPlace& at, int ro
   if (is_other_table_) {
     issues_.add_row(
         at, "other_table",
-        [] { return "belongs to another table, below a header with other columns; its rows were left out"; },
+        [] {
+          return "belongs to another table, which has a header with other columns; the rows of that table "
+                 "were left out";
+        },
         true, Severity::severe);
     return CsvRow::drop;
   }
@@ -179,9 +182,9 @@ bool CsvRowReader::take_header(const CsvPlace& at) {
   issues_.add_row(
       at, is_same ? "header_repeated" : "header_changed",
       [is_same] {
-        return is_same ? "repeats the header; the line was left out, as where files were joined"
-                       : "stands below a header with the columns in another order; from here on they were "
-                         "read in that order";
+        return is_same ? "repeats the header, as if files were joined; the line was left out"
+                       : "follows a header with the columns in another order; from here on, rows were read "
+                         "in that order";
       },
       false);
   if (is_same) return true;
@@ -191,7 +194,7 @@ bool CsvRowReader::take_header(const CsvPlace& at) {
 }
 
 std::string CsvRowReader::field_count(std::string_view line) const {
-  return fmt::format("has {} fields where {} are expected: \"{}\"", fields_.size(), dialect_.fields,
+  return fmt::format("has {} fields, but {} are expected: \"{}\"", fields_.size(), dialect_.fields,
                      shortened(line.substr(0, kQuotedBytes), kLongestName));
 }
 
@@ -210,7 +213,8 @@ CsvRow CsvRowReader::judge_end(std::string_view line, const CsvPlace& at, const 
         [&] {
           return fmt::format(
               "ends the file without a line break, and its last value \"{}\" is shorter than others of its "
-              "column; it may be cut, so the row was left out. If it is whole, end the file with a line break",
+              "column; it may be cut, so the row was left out. If it is complete, end the file with a line "
+              "break",
               cell);
         },
         true);
@@ -232,15 +236,17 @@ CsvRow CsvRowReader::judge_length(std::string_view line, const CsvPlace& at) {
   if (have < dialect_.fields) {
     absent_fields_ += dialect_.fields - have;
     issues_.add_row(
-        at, "ragged_row", [&] { return field_count(line) + "; the fields at its end are taken as missing"; },
-        false);
+        at, "ragged_row",
+        [&] { return field_count(line) + "; the lacking fields at its end are treated as missing"; }, false);
   }
   bool surplus = false;
   for (int i = dialect_.fields; i < have; ++i) surplus = surplus || !fields_[i].empty();
   if (!surplus) return CsvRow::keep;
   issues_.add_row(
       at, "row_too_long",
-      [&] { return field_count(line) + "; which value is which is not sure, so the row was left out"; },
+      [&] {
+        return field_count(line) + "; its values cannot be assigned to columns, so the row was left out";
+      },
       true);
   return CsvRow::drop;
 }

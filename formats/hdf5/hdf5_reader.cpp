@@ -105,8 +105,8 @@ class Hdf5Arrays : public ArrayFile {
       throw Error(
           ErrorCode::input, path_,
           fmt::format(
-              "keeps its numbers in chunks of which {} MiB must be unpacked at once, more than the {} "
-              "MiB that are read so; write it again in smaller chunks, as by h5repack -l CHUNK=1000",
+              "stores its numbers in chunks of which {} MiB must be unpacked at once, more than the limit "
+              "of {} MiB; write it again in smaller chunks, as with h5repack -l CHUNK=1000",
               all >> 20, kMostChunks >> 20));
     for (const auto& [dataset, bytes] : bytes_of)
       if (bytes > 0)
@@ -152,20 +152,20 @@ class Hdf5Arrays : public ArrayFile {
     if (!file_.ok())
       throw Error(
           ErrorCode::input, path_,
-          "is an HDF5 file whose beginning is damaged, or that is cut inside it; nothing can be read from "
-          "it. A program that is still writing it must close it first");
+          "is an HDF5 file whose beginning is damaged or cut; nothing can be read from it. If a program is "
+          "still writing the file, close it there first");
     Hdf5Tree tree = hdf5_tree(file_);
     if (!with_attributes_)
       issues_.add(
           make_issue("array_damaged", Severity::severe,
-                     "the attributes of the datasets are damaged; no unit and no name of a column was read"));
+                     "the attributes of the datasets are damaged; units and names of columns were not read"));
     issues_.merge(tree.issues);
     notes_ = tree.notes;
     for (const std::string& path : tree.datasets) add(path);
     if (arrays_.empty() && !no_numbers_.empty())
       issues_.add(make_issue(
           "array_left_out", Severity::note,
-          "its datasets hold no numbers (" + no_numbers_ + "); a log has times and positions as numbers"));
+          "its datasets hold no numbers (" + no_numbers_ + "); a log needs times and positions as numbers"));
   }
 
   void add(const std::string& path) {
@@ -198,7 +198,7 @@ class Hdf5Arrays : public ArrayFile {
     if (described_bytes_ > kMostDescription)
       issues_.add(
           make_issue("array_damaged", Severity::warning,
-                     "the attributes of the datasets take more text than names and units do; those of "
+                     "the attributes of the datasets hold more text than names and units need; those of "
                      "later datasets were not read"));
   }
 
@@ -261,8 +261,8 @@ std::unique_ptr<ArrayFile> open_hdf5_arrays(const std::string& path, MatlabNamin
       return std::make_unique<Hdf5Arrays>(path, matlab, with_attributes);
   throw Error(
       ErrorCode::input, path,
-      "is damaged in a way that the HDF5 library does not survive; nothing can be read from it. Try to copy "
-      "its datasets with h5repack or h5dump");
+      "is damaged in a way that crashes or stalls the HDF5 library; nothing can be read from it. Try to "
+      "copy its datasets with h5repack or h5dump");
 }
 
 }  // namespace faultline

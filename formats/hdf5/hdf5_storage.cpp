@@ -98,14 +98,16 @@ std::optional<Hdf5Storage> hdf5_storage(hid_t dataset, const Hdf5Shape& shape, s
     return std::nullopt;
   }
   if (!has_filters(creation)) {
-    why = "it is compressed by something else than gzip, which is not read; write it again with gzip";
+    why = "its compression is not gzip, the only one that can be read; write it again with gzip";
     return std::nullopt;
   }
   const H5D_layout_t layout = H5Pget_layout(creation);
   if (layout == H5D_CHUNKED)
     return chunk_storage(dataset, creation, shape, static_cast<double>(file_bytes), why);
   if (layout != H5D_COMPACT && layout != H5D_CONTIGUOUS) {
-    why = "it is kept in a way that is not read, such as a virtual dataset; copy it into an ordinary one";
+    why =
+        "it has a layout that cannot be read, such as that of a virtual dataset; copy it into an ordinary "
+        "dataset";
     return std::nullopt;
   }
   const haddr_t at = layout == H5D_COMPACT ? 0 : H5Dget_offset(dataset);

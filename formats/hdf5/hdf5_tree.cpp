@@ -129,20 +129,17 @@ herr_t visit_link(hid_t group, const char* name, const H5L_info_t* link, void* w
   Walk& walk = *static_cast<Walk*>(walk_at);
   if (++walk.objects > kMostObjects) return 1;
   if (walk.path.size() + std::strlen(name) > kLongestPath) {
-    walk.tree.issues.add(
-        make_issue("array_damaged", Severity::warning,
-                   fmt::format("what lies below \"{}\" was left out, as its path is longer than any name",
-                               shortened(walk.path, kLongestName))));
+    walk.tree.issues.add(make_issue("array_damaged", Severity::warning,
+                                    fmt::format("an object below \"{}\" was left out: its path is too long",
+                                                shortened(walk.path, kLongestName))));
     return 0;
   }
   if (link->type == H5L_TYPE_HARD) visit(walk, group, name);
   if (link->type == H5L_TYPE_SOFT)
     walk.soft_links.emplace_back(walk.path + name, soft_target(walk, group, name, link->u.val_size));
   if (link->type >= H5L_TYPE_UD_MIN)  // in the library, these are links into other files
-    leave_out(
-        walk, walk.path + name,
-        "is a link into another file, which is not read, and was left out; copy what it leads to into this "
-        "file");
+    leave_out(walk, walk.path + name,
+              "is a link into another file and was left out; copy its target into this file");
   return 0;
 }
 
@@ -150,7 +147,7 @@ herr_t visit_link(hid_t group, const char* name, const H5L_info_t* link, void* w
 void tell_open_links(Walk& walk) {
   for (const auto& [link, target] : walk.soft_links)
     if (!walk.places.count(target))
-      leave_out(walk, link, "is a link that leads to nothing in this file, and was left out");
+      leave_out(walk, link, "is a link without a target in this file and was left out");
 }
 
 void walk_group(Walk& walk, const std::string& path) {

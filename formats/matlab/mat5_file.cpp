@@ -231,7 +231,7 @@ void tell_damaged(StoredList& list, std::int64_t at, bool cut) {
   list.issues.add(make_issue(
       cut ? "file_truncated" : "array_damaged", Severity::severe,
       cut ? fmt::format("the file ends inside the variable at byte {}", at)
-          : fmt::format("a variable at byte {} is damaged and was left out, or what is left of it", at)));
+          : fmt::format("the variable at byte {} is damaged; all or part of it was left out", at)));
 }
 
 /// Reads the variables one after another.

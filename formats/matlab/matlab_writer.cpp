@@ -72,8 +72,8 @@ class MatlabWriter : public LogWriter {
     if (bytes > kWriterMostBytes)
       throw Error(ErrorCode::output, path_,
                   "cannot hold \"" + array.name +
-                      "\", as such a file holds 2 GiB an array; write .h5, which MATLAB "
-                      "reads by h5read()");
+                      "\": a .mat file of this version holds at most 2 GiB per array; write .h5, which "
+                      "MATLAB reads with h5read()");
     file_.write(matrix_head(kDoubleClass, rows, width, array.name, kDouble, bytes));
     std::vector<double> column(rows);
     for (std::size_t c = 0; c < width; ++c) {

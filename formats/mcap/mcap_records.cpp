@@ -83,19 +83,17 @@ bool McapRecords::find_record() {
     bytes_.advance(at);
   } while (!found && !bytes_.view().empty());
   damaged_ = true;
-  issues_.add(
-      {"records_damaged", "", Severity::severe,
-       fmt::format("bytes {} to {} are no records; what they held is lost", begin, bytes_.position())});
+  issues_.add({"records_damaged", "", Severity::severe,
+               fmt::format("bytes {} to {} are not records; their data are lost", begin, bytes_.position())});
   return found;
 }
 
 void McapRecords::end() {
   finished_ = true;
   damaged_ = true;
-  issues_.add(
-      {"file_truncated", "", Severity::severe,
-       fmt::format("the file ends without its end mark, at byte {}; the recording was cut or its end lost",
-                   bytes_.position() + static_cast<std::int64_t>(bytes_.view().size()))});
+  issues_.add({"file_truncated", "", Severity::severe,
+               fmt::format("the file ends without its end mark, at byte {}; the recording is cut",
+                           bytes_.position() + static_cast<std::int64_t>(bytes_.view().size()))});
 }
 
 /// Skips the marks at this position and returns their number; a recording begins and ends with one.
@@ -115,8 +113,8 @@ void McapRecords::begin_recording() {
   if (++recordings_ == 1) return;
   issues_.add(
       {"recordings_joined", "", Severity::warning,
-       fmt::format("another recording begins at byte {}, as where files were joined by cat; it is read "
-                   "as part of the log",
+       fmt::format("another recording begins at byte {}, as if files were joined by cat; it is read as "
+                   "part of the log",
                    recording_begin_)});
 }
 
@@ -132,9 +130,9 @@ void McapRecords::end_recording(int marks) {
     issues_.add({"file_truncated", "", Severity::warning,
                  "the last bytes of the file are missing or damaged; they hold no data"});
   } else if (left_over > 0) {
-    issues_.add(
-        {"trailing_bytes", "", Severity::warning,
-         fmt::format("the bytes from {} on, behind the recording, were not looked at", bytes_.position())});
+    issues_.add({"trailing_bytes", "", Severity::warning,
+                 fmt::format("the bytes from {} on, after the end of the recording, were ignored",
+                             bytes_.position())});
   }
 }
 

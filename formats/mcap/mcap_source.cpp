@@ -162,8 +162,8 @@ void McapIndex::tell(bool damaged, Issues& issues) const {
   if (messages_told_ >= 0 && messages_told_ != messages_)
     issues.add(
         {"index_wrong", "", Severity::warning,
-         fmt::format("the statistics at the end of the file speak of {} messages, the file has {}; the "
-                     "data were read without them",
+         fmt::format("the statistics at the end of the file count {} messages, but the file has {}; the "
+                     "data were read without the statistics",
                      messages_told_, messages_)});
 }
 
@@ -289,9 +289,9 @@ class McapSource : public MessageSource {
       records_.met_time(log_time);
       return true;
     }
-    issues_.add(
-        {"channel_unknown", "", Severity::warning,
-         fmt::format("a message of channel {} was left out, as the file does not tell what it is", channel)});
+    issues_.add({"channel_unknown", "", Severity::warning,
+                 fmt::format("skipped a message of channel {}: the file does not declare its topic and type",
+                             channel)});
     return false;
   }
 
@@ -306,7 +306,7 @@ class McapSource : public MessageSource {
     chunk_.close();
     lost_.begin_chunk();
     chunk_doubtful_ = false;
-    if (!chunk.ok() || !packing) return lose_chunk("its head cannot be read");
+    if (!chunk.ok() || !packing) return lose_chunk("its header is damaged or names an unknown compression");
     if (records_.is_too_large() || size > kLargestBlock)
       return lose_chunk(too_large_block(std::max<std::uint64_t>(size, records_.size())));
     index_.met_chunk(records_.begin() - records_.recording_begin(),
@@ -320,7 +320,7 @@ class McapSource : public MessageSource {
     }
     const bool wrong = sound && checksum != 0 && mcap_crc(inside) != checksum;
     if (records_.is_cut())
-      lose_chunk("the file ends in it; what stands before is read", false);
+      lose_chunk("the file ends inside it; the data before the cut are read", false);
     else if (!sound || wrong)
       lose_chunk(wrong ? "its checksum does not match" : "it cannot be unpacked to its end");
     chunk_.begin(inside, topics_);

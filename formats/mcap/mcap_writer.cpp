@@ -203,8 +203,8 @@ class McapWriter : public McapRecording {
     if (!(time >= 0.0 && time < kMostSeconds))
       throw Error(
           ErrorCode::output, path_,
-          fmt::format("cannot hold the time {} s: stamps of messages lie between 0 and {} s; write .csv "
-                      "or .flog, or let the clock of the log start at 0",
+          fmt::format("cannot hold the time {} s: stamps of messages lie between 0 and {} s; write .csv or "
+                      ".flog, or shift the clock of the log to start at 0",
                       time, kMostSeconds));
     // Seconds and fraction are converted separately, so that a time since 1970 keeps its bits.
     const double seconds = std::floor(time);

@@ -56,7 +56,8 @@ int choose_main(const std::vector<Topic>& topics, const std::vector<JointStream>
   for (const JointStream& stream : streams) names.insert(name_of(stream));
   throw Error(ErrorCode::input, path,
               "has no topic " + quoted(choice.topic) +
-                  " with joint states, which the robot file names as [log] topic; there are " +
+                  " with joint states, although the robot file names it as [log] topic; the topics with "
+                  "joint states are " +
                   listed({names.begin(), names.end()}));
 }
 
@@ -90,8 +91,9 @@ std::vector<int> order_joints(const JointStream& stream, const RecordingChoice& 
     if (stream.joints.size() > 1)
       issues.add(
           {"joint_order", "", Severity::note,
-           "the joints are taken in the order of the messages: " + listed(stream.joints) +
-               ". If that is not from base to tip, name them in the robot file: [log] joints = [...]"});
+           "the joints keep the order of the messages: " + listed(stream.joints) +
+               ". If this order is not from base to tip, list the joints in the robot file: [log] joints = "
+               "[...]"});
     return order;
   }
   for (const std::string& joint : choice.joints) {
@@ -99,7 +101,8 @@ std::vector<int> order_joints(const JointStream& stream, const RecordingChoice& 
     if (found == stream.joints.end())
       throw Error(ErrorCode::input, path,
                   "has no joint " + quoted(joint) +
-                      ", which the robot file names in [log] joints; there are " + listed(stream.joints));
+                      ", although the robot file names it in [log] joints; the messages have " +
+                      listed(stream.joints));
     order.push_back(static_cast<int>(found - stream.joints.begin()));
   }
   return order;
@@ -136,7 +139,8 @@ class Layouter {
     if (!header || main.received_later) add_time_column(layout_.receipt_column, "receipt", !header);
     if (!main.stamped)
       layout_.issues.add({"no_stamps", "t", Severity::note,
-                          "the messages bear no stamps; the time is that of their receipt"});
+                          "the headers of the messages carry no time stamps; unless the robot file sets "
+                          "[log] time, the time of receipt is used"});
   }
 
   void add_time_column(int& place, const char* name, bool is_time) {

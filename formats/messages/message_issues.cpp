@@ -18,7 +18,7 @@ std::string name_of(const Topic& topic) { return shortened(topic.name, kLongestN
 }  // namespace
 
 std::string topics_sentence(const std::vector<Topic>& topics) {
-  if (topics.empty()) return "it holds no topic at all";
+  if (topics.empty()) return "it holds no topics";
   std::string text = "its topics are ";
   for (std::size_t i = 0; i < topics.size() && i < kNamedTopics; ++i)
     text += fmt::format("{}\"{}\" ({}, {})", i ? ", " : "", shortened(topics[i].name, kLongestName),
@@ -32,7 +32,7 @@ Issue lost_row(std::int64_t row, bool with_its_block) {
     return {"messages_lost",
             "",
             Severity::severe,
-            fmt::format("message {} of the joints stood in a damaged part of the file", row),
+            fmt::format("message {} of the joints was in a damaged part of the file and is lost", row),
             row,
             kNan,
             1,
@@ -48,35 +48,34 @@ Issue lost_row(std::int64_t row, bool with_its_block) {
 }
 
 Issue late_row(std::int64_t row, const Topic& topic) {
-  return {
-      "joints_appear_late",
-      "",
-      Severity::severe,
-      fmt::format("message {} of \"{}\" speaks of joints that no earlier one had, or in more orders than a "
-                  "recording has; it was left out",
-                  row, name_of(topic)),
-      row,
-      kNan,
-      1,
-      1};
+  return {"joints_appear_late",
+          "",
+          Severity::severe,
+          fmt::format("message {} of \"{}\" names joints that no earlier message named, or joints in more "
+                      "orders than a recording has; it was left out",
+                      row, name_of(topic)),
+          row,
+          kNan,
+          1,
+          1};
 }
 
 Issue joints_changed(const JointStream& stream, const Topic& topic, std::int64_t first, std::int64_t rows) {
   std::string joints;
   for (std::size_t j = 0; j < std::min(kNamedJoints, stream.joints.size()); ++j)
     joints += (j > 0 ? ", " : "") + shortened(stream.joints[j], kLongestName);
-  return {
-      "joints_changed",
-      "",
-      Severity::severe,
-      fmt::format("from row {} on only messages of \"{}\" about the joints {} follow, which are not those of "
-                  "the log: names or topic changed, or another robot goes on. They were left out; name their "
-                  "[log] topic and joints in a robot file to read them instead",
-                  first, name_of(topic), joints),
-      first,
-      kNan,
-      rows,
-      rows};
+  return {"joints_changed",
+          "",
+          Severity::severe,
+          fmt::format("from row {} on, all messages are of \"{}\" with the joints {}, which are not those "
+                      "of the log: names or topic changed, or the recording continues with another robot. "
+                      "These messages were left out; to read them instead, name their [log] topic and "
+                      "joints in a robot file",
+                      first, name_of(topic), joints),
+          first,
+          kNan,
+          rows,
+          rows};
 }
 
 Issue damaged_message(const Topic& topic) {
@@ -86,39 +85,39 @@ Issue damaged_message(const Topic& topic) {
 Issue late_message(const Topic& topic) {
   return {
       "joints_appear_late", "", Severity::severe,
-      "a message of \"" + name_of(topic) + "\" speaks of joints that no earlier one had; it was left out"};
+      "a message of \"" + name_of(topic) + "\" names joints that no earlier message named; it was left out"};
 }
 
 Issue late_joints(std::int64_t row) {
   return {
       "joints_appear_late", "", Severity::severe,
-      fmt::format("message {} speaks of joints that no earlier one had, or of one twice; their values were "
-                  "left out",
+      fmt::format("message {} names joints that no earlier message named, or one joint twice; their values "
+                  "were left out",
                   row),
       row};
 }
 
 Issue joint_missing(std::int64_t row, const std::string& joint) {
   return {"joint_missing", "", Severity::warning,
-          fmt::format("message {} does not speak of joint \"{}\"; its values are missing", row,
+          fmt::format("message {} does not name joint \"{}\"; the values of this joint are missing", row,
                       shortened(joint, kLongestName)),
           row};
 }
 
 Issue array_length(std::int64_t row, std::size_t values, std::size_t joints) {
-  return {"array_length", "", Severity::warning,
-          fmt::format(
-              "message {} has {} values for {} joints; those without a joint were left out, and missing ones "
-              "are missing",
-              row, values, joints),
-          row};
+  return {
+      "array_length", "", Severity::warning,
+      fmt::format("message {} has {} values for {} joints; surplus values were left out, and lacking ones "
+                  "count as missing",
+                  row, values, joints),
+      row};
 }
 
 Issue publishers_mixed(const Topic& topic) {
   return {
       "publishers_mixed", "", Severity::severe,
-      "the positions jump to and fro from row to row between two courses, as where two publishers send on \"" +
-          name_of(topic) + "\"; record them on topics of their own"};
+      "the positions alternate from row to row between two trajectories, as if two publishers send on \"" +
+          name_of(topic) + "\"; record each publisher on its own topic"};
 }
 
 }  // namespace faultline

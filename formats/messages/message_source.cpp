@@ -22,8 +22,8 @@ int TopicList::add(Topic topic) {
   bytes_ += topic.name.size() + topic.type.size() + topic.encoding.size();
   if (topics_.size() == kMostTopics || bytes_ > kMostTopicBytes)
     throw Error(ErrorCode::input, path_,
-                fmt::format("names more than {} topics, or topics with more than {} MiB of names, which no "
-                            "recording has; write the topic of the joint states alone",
+                fmt::format("names more than {} topics, or topics with more than {} MiB of names; write a "
+                            "recording with only the topic of the joint states",
                             kMostTopics, kMostTopicBytes >> 20));
   topics_.push_back(std::move(topic));
   return next;

@@ -43,8 +43,8 @@ void RivalStreams::tell_end(Issues& issues) {
   count(0);
   if (between_rows_ == 0) return;
   issues.add({"messages_between_rows", "", Severity::note,
-              "messages about other joints came between those of the log; each row has the latest, and these "
-              "stand in none",
+              "messages about other joints came between those of the log; each row holds the latest of "
+              "them, and the others are in no row",
               0, kNan, between_rows_});
 }
 

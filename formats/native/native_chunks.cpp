@@ -70,7 +70,7 @@ bool NativeChunks::find_header(NativeChunkHeader& header) {
     return true;
   }
   lose("file_truncated", 0,
-       fmt::format("the file ends without its end mark; {} bytes behind the last whole chunk were left out",
+       fmt::format("the file ends without its end mark; {} bytes after the last complete chunk were left out",
                    skipped + bytes_.view().size()));
   bytes_.advance(bytes_.view().size());
   return false;
@@ -122,7 +122,7 @@ void NativeChunks::pass_damaged(const NativeChunkHeader& header, std::size_t siz
          fmt::format("the checksum of a chunk does not match; its {} rows were left out", header.rows));
   else if (found != std::string_view::npos)
     lose("chunk_damaged", header.rows,
-         fmt::format("a chunk is not whole; its {} rows were left out", header.rows));
+         fmt::format("a chunk is incomplete; its {} rows were left out", header.rows));
   else
     lose("file_truncated", header.rows,
          fmt::format("the file is cut inside a chunk; its {} rows were left out", header.rows));
@@ -147,7 +147,7 @@ void NativeChunks::finish() {
   const std::int64_t more = bytes_.drain();
   if (more > 0)
     issues_.add({"trailing_bytes", "", Severity::warning,
-                 fmt::format("{} bytes behind the end mark were not looked at", more)});
+                 fmt::format("{} bytes after the end mark were ignored", more)});
 }
 
 }  // namespace faultline

@@ -67,7 +67,8 @@ std::size_t second_copy(ByteWindow& bytes) {
   const NativePreface preface = first_fields(bytes.view());
   if (preface.version > kNativeVersion)
     fail_preface(path,
-                 fmt::format("is of format version {}, this program reads up to {}; use a newer faultline",
+                 fmt::format("has format version {}, but this program reads versions up to {}; use a newer "
+                             "faultline",
                              preface.version, kNativeVersion));
   fail_preface(path, "has a damaged header (its checksum does not match); nothing can be read from it");
 }
@@ -76,7 +77,7 @@ std::vector<RawColumn> columns_of(std::string_view list, const std::string& path
   std::vector<RawColumn> columns;
   const auto count = static_cast<std::size_t>(std::count(list.begin(), list.end(), '\n'));
   if (count > kMostChannels)
-    fail_preface(path, fmt::format("promises {} channels, at most {} are read", count, kMostChannels));
+    fail_preface(path, fmt::format("declares {} channels, but at most {} can be read", count, kMostChannels));
   for (std::size_t begin = 0; begin < list.size();) {
     const auto tab = list.find('\t', begin), end = list.find('\n', begin);
     if (tab >= end || end == std::string::npos) fail_preface(path, "has a channel list that cannot be read");

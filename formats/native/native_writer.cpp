@@ -66,7 +66,8 @@ class NativeWriter : public LogWriter {
     if (channels.size() > kMostChannels || list.size() > kLongestList)
       throw Error(
           ErrorCode::output, path_,
-          fmt::format("cannot hold {} columns, a .flog holds {} whose names take {} bytes; write .csv",
+          fmt::format("cannot hold {} columns: a .flog holds at most {}, with at most {} bytes of names "
+                      "and units; write .csv",
                       channels.size(), kMostChannels, kLongestList));
     channels_ = channels.size();
     const std::string preface = native_preface(list);

@@ -38,7 +38,7 @@ std::unique_ptr<ArrayFile> open_npy_file(const std::string& path) {
   if (!list.arrays.empty() && file->size() > array->bytes)
     list.issues.add(
         make_issue("trailing_bytes", Severity::warning,
-                   fmt::format("{} bytes behind the array were not looked at", file->size() - array->bytes)));
+                   fmt::format("{} bytes after the array were ignored", file->size() - array->bytes)));
   return std::make_unique<StoredArrays>(std::move(file), std::move(list));
 }
 
@@ -75,7 +75,7 @@ std::string other_archive(const std::vector<StoredContent>& members) {
   };
   if (has("xl/")) return "is an Excel workbook; save the sheet with the log as CSV in UTF-8";
   if (has("content.xml")) return "is an OpenDocument file; save the sheet with the log as CSV in UTF-8";
-  if (has("word/") || has("ppt/")) return "is a document of Office and no log; export the log itself as CSV";
+  if (has("word/") || has("ppt/")) return "is an Office document, not a log; export the log itself as CSV";
   std::string names;
   std::size_t files = 0;
   for (const StoredContent& member : members) {
@@ -84,8 +84,8 @@ std::string other_archive(const std::vector<StoredContent>& members) {
   }
   if (files == 0) return "is an empty ZIP archive";
   if (files > kNamedMembers) names += fmt::format(" and {} more", files - kNamedMembers);
-  return "is a ZIP archive without arrays of NumPy; it holds " + names +
-         ". Unpack it first, and give the file that is the log";
+  return "is a ZIP archive without NumPy arrays; it holds " + names +
+         ". Unpack it first and give the file that holds the log";
 }
 
 std::unique_ptr<ArrayFile> open_npz_file(const std::string& path) {

@@ -143,8 +143,8 @@ class MemberList {
     } else {
       issues_.add(
           make_issue("file_truncated", Severity::severe,
-                     "the directory at the end of the file is damaged or missing; the arrays were looked "
-                     "for from its front on"));
+                     "the directory at the end of the file is damaged or missing; the file was searched "
+                     "for arrays from its beginning"));
       scan();
     }
     return std::move(contents_);
@@ -164,7 +164,8 @@ class MemberList {
   }
 
   void add(const ZipMember& member, std::uint64_t at) {
-    if (!names_.insert(member.name).second) return leave_out(member.name, "the file has two of this name");
+    if (!names_.insert(member.name).second)
+      return leave_out(member.name, "the file has two arrays of this name");
     if (member.flags & kEncrypted) return leave_out(member.name, "it is encrypted");
     if (member.method != kStored && member.method != kDeflated)
       return leave_out(member.name, "its compression is neither none nor deflate; save it again with numpy");

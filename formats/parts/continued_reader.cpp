@@ -73,7 +73,7 @@ class ContinuedReader : public RawReader {
       for (std::size_t c = 0; c < columns().size(); ++c)
         if (places_[f][c] < 0)
           issues_.add({"column_missing", columns()[c].name, Severity::warning,
-                       fmt::format("{} has no column \"{}\"; it is taken as missing there",
+                       fmt::format("{} has no column \"{}\"; its values are missing there",
                                    files_[f]->identity().path, columns()[c].name)});
     }
     return issues_;
@@ -102,8 +102,8 @@ class ContinuedReader : public RawReader {
       if (!from || !to || from->dimension != to->dimension)
         throw Error(
             ErrorCode::input, file.identity().path,
-            fmt::format("has column \"{}\" in \"{}\", the first file of the log in \"{}\"; write both in "
-                        "one unit",
+            fmt::format("has column \"{}\" in \"{}\", but the first file of the log has it in \"{}\"; "
+                        "write both in the same unit",
                         columns()[c].name, theirs, ours));
       factors[c] = from->factor / to->factor;
     }

@@ -184,17 +184,16 @@ Issues Partner::issues() const {
   Issues issues = reader_->issues();
   const std::string& path = reader_->identity().path;
   if (without_ > 0)
-    issues.add(
-        {"join_without_partner", "", Severity::warning,
-         fmt::format("{} of {} rows have no row of {} that belongs to them; its values are missing there",
-                     without_, asked_, path)});
+    issues.add({"join_without_partner", "", Severity::warning,
+                fmt::format("{} of {} rows have no matching row in {}; its values are missing there",
+                            without_, asked_, path)});
   if (passed_ > 0)
     issues.add({"join_rows_left", "", Severity::warning,
-                fmt::format("{} rows of {} belong to no row of the log: {}", passed_, path,
-                            time_ ? "their time runs back or is missing" : "they are behind its last one")});
+                fmt::format("{} rows of {} match no row of the log: {}", passed_, path,
+                            time_ ? "their time goes backward or is missing" : "they follow its last row")});
   if (between_ > 0)
     issues.add({"join_interpolated", "", Severity::note,
-                fmt::format("{} of {} rows lie between two of {}; its values were interpolated linearly",
+                fmt::format("{} of {} rows lie between two rows of {}; its values were interpolated linearly",
                             between_, asked_, path)});
   return issues;
 }

@@ -122,8 +122,8 @@ class Rosbag1Source : public MessageSource {
     if (recordings_ > 0)
       issues_.add(
           {"recordings_joined", "", Severity::warning,
-           fmt::format("another bag begins at byte {}, as where files were joined by cat; it is read as "
-                       "part of the log",
+           fmt::format("another bag begins at byte {}, as if files were joined by cat; it is read as part "
+                       "of the log",
                        window_.position())});
     if (topics_of_.size() == recordings_) topics_of_.emplace_back();
     ++recordings_;
@@ -165,7 +165,7 @@ class Rosbag1Source : public MessageSource {
     } while (!found && !window_.view().empty());
     issues_.add(
         {"records_damaged", "", Severity::severe,
-         fmt::format("bytes {} to {} are no records; what they held is lost", begin, window_.position())});
+         fmt::format("bytes {} to {} are not records; their data are lost", begin, window_.position())});
     return found;
   }
 
@@ -206,7 +206,8 @@ class Rosbag1Source : public MessageSource {
     if (topic == topic_of().end()) {
       issues_.add(
           {"channel_unknown", "", Severity::warning,
-           fmt::format("a message of connection {} was left out, as the file does not tell what it is", id)});
+           fmt::format("skipped a message of connection {}: the file does not declare its topic and type",
+                       id)});
       return false;
     }
     message = {topic->second, fields.time("time"), data, lost};
@@ -217,7 +218,7 @@ class Rosbag1Source : public MessageSource {
     lost_.begin_chunk();
     const auto packing = bag_packing(fields.text("compression"));
     const std::uint32_t size = fields.word("size");
-    if (!packing) return lose_chunk("its compression is not known");
+    if (!packing) return lose_chunk("its compression is unknown");
     if (size > kLargestBlock) return lose_chunk(too_large_block(size));
     bool sound = data.size() == size;
     inside_ = data;
@@ -227,7 +228,7 @@ class Rosbag1Source : public MessageSource {
       bytes_->spend(block_work_ns(*packing, static_cast<std::int64_t>(inside_.size())));
     }
     if (!whole)
-      lose_chunk("the file ends in it; what stands before is read");
+      lose_chunk("the file ends inside it; the data before the cut are read");
     else if (!sound)
       lose_chunk("it cannot be unpacked to its end; its messages were left out");
     chunk_doubtful_ = whole && !sound;
@@ -242,7 +243,7 @@ class Rosbag1Source : public MessageSource {
   bool next_inside(Message& message) {
     const Rosbag1Record record = rosbag1_record(inside_);
     if (record.size == 0 || !record.fields.has_op()) {
-      if (!lost_.is_lossy()) lose_chunk("the records in it are damaged; what stands before is read");
+      if (!lost_.is_lossy()) lose_chunk("the records in it are damaged; those before the damage are read");
       inside_ = {};
       return false;
     }

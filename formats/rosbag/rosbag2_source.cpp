@@ -177,8 +177,8 @@ void MessageTable::bound_work() {
 
 void MessageTable::refuse_work() const {
   fail(
-      "asks SQLite for far more work than a recording of its size needs, and was not read on; a recording of "
-      "rosbag2 has plain tables of topics and messages. Export it as CSV");
+      "makes SQLite do far more work than a recording of its size needs, so reading stopped; a rosbag2 "
+      "recording has plain tables of topics and messages. Export it as CSV");
 }
 
 /// Rejects views, virtual tables and computed columns, as they could cause any amount of work from a small
@@ -191,8 +191,8 @@ void MessageTable::refuse_computed(const char* table) {
       (text_of(kind.get(), 0) != "table" || sqlite3_column_type(kind.get(), 1) != SQLITE_TEXT ||
        text_of(kind.get(), 1).find("VIRTUAL") != std::string::npos))
     fail(fmt::format(
-        "is no rosbag2 recording: \"{}\" is no plain table but is computed, which is not run. Export "
-        "it as CSV",
+        "is not a rosbag2 recording: \"{}\" is not a plain table but a computed one, which is not "
+        "evaluated. Export it as CSV",
         table));
   const Statement columns = prepared(db_, "SELECT hidden FROM pragma_table_xinfo(?1)");
   if (!columns) return;
@@ -200,7 +200,7 @@ void MessageTable::refuse_computed(const char* table) {
   while (sqlite3_step(columns.get()) == SQLITE_ROW)
     if (sqlite3_column_int(columns.get(), 0) != 0)
       fail(fmt::format(
-          "is no rosbag2 recording: the table \"{}\" has a column that is computed, which is not run. "
+          "is not a rosbag2 recording: the table \"{}\" has a computed column, which is not evaluated. "
           "Export it as CSV",
           table));
 }
@@ -210,8 +210,8 @@ void MessageTable::read_topics() {
       prepared(db_, "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
   if (!topics || !prepared(db_, kFromNumber))
     fail(fmt::format(
-        "is an SQLite file, but no rosbag2 recording that can be read ({}); a recording has the tables "
-        "topics and messages. Export it as CSV",
+        "is an SQLite file, but not a readable rosbag2 recording ({}); a recording has the tables topics "
+        "and messages. Export it as CSV",
         sqlite3_errmsg(db_)));
   while (sqlite3_step(topics.get()) == SQLITE_ROW) {
     spend(kMessageWork_ns);
@@ -266,8 +266,7 @@ bool MessageTable::pass_damage(Issues& issues) {
   const std::int64_t next = found ? sqlite3_column_int64(messages_, 0) : last_number_ + 1;
   const std::string lost = next > first ? fmt::format("messages {} to {}", first, next - 1)
                                         : fmt::format("the messages from number {} on", first);
-  issues.add(
-      {"pages_damaged", "", Severity::severe, lost + " stand on damaged or missing pages and are lost"});
+  issues.add({"pages_damaged", "", Severity::severe, lost + " are on damaged or missing pages and are lost"});
   return found;
 }
 
@@ -292,7 +291,7 @@ bool MessageTable::take(Message& message, Issues& issues) {
   const auto topic = topic_of_id_.find(id);
   if (topic == topic_of_id_.end()) {
     issues.add({"channel_unknown", "", Severity::warning,
-                fmt::format("message {} was left out, as there is no topic {}", number_, id)});
+                fmt::format("skipped message {}: the file declares no topic {}", number_, id)});
     return false;
   }
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(messages_, 3));
@@ -359,7 +358,7 @@ class Rosbag2Source : public MessageSource {
     issues_.add(
         {"recordings_joined", "", Severity::severe,
          "another recording begins at byte " + std::to_string(end) +
-             ", as where files were joined by cat; it is not read. Give the files one by one, with --then"});
+             ", as if files were joined by cat; it is not read. Give the files separately, with --then"});
   }
 
   std::unique_ptr<ByteSource> bytes_;
@@ -375,7 +374,7 @@ std::unique_ptr<RawReader> open_rosbag2(std::unique_ptr<ByteSource> bytes) {
   if (bytes->compression())
     throw Error(ErrorCode::input, bytes->path(),
                 std::string("is a recording in SQLite inside ") + bytes->compression() +
-                    "; unpack it first, SQLite reads files only");
+                    "; unpack it first, as SQLite reads files only");
   return read_joint_states(std::make_unique<Rosbag2Source>(std::move(bytes)));
 }
 

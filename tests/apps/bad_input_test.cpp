@@ -60,7 +60,7 @@ TEST_F(BadInput, EmptyFile) { expect_one_sentence(inspect(""), 3, {"log.csv", "i
 TEST_F(BadInput, HeaderOnly) { expect_one_sentence(inspect("t,q1,tau1\n"), 3, {"no data row"}); }
 
 TEST_F(BadInput, BinaryFile) {
-  expect_one_sentence(inspect(std::string("\x7f\x45\x4c\x46\0\0\0", 7)), 3, {"no known format", "CSV"});
+  expect_one_sentence(inspect(std::string("\x7f\x45\x4c\x46\0\0\0", 7)), 3, {"unknown format", "CSV"});
 }
 
 TEST_F(BadInput, OneRowIsReadAndHasNoSamplePeriod) {
@@ -73,7 +73,7 @@ TEST_F(BadInput, OneRowIsReadAndHasNoSamplePeriod) {
 TEST_F(BadInput, TextWhereANumberBelongs) {
   const ProgramRun run = inspect(kGood + "0.4,oops,1,2\n");
   EXPECT_EQ(run.status, 0);
-  expect_words(run.out, {"not_a_number q1", "row 5 (line 6)", "\"oops\"", "taken as missing"});
+  expect_words(run.out, {"not_a_number q1", "row 5 (line 6)", "\"oops\"", "treated as missing"});
 }
 
 TEST_F(BadInput, RaggedRows) {

@@ -144,7 +144,7 @@ TEST_F(DiagnoseRecording, WhatWasFoundIsToldWhenTheRecordingCannotBeWritten) {
   const ProgramRun run = diagnose(early, {"--mcap", out_});
   EXPECT_EQ(run.status, 3);
   EXPECT_NE(run.out.find("No fault found"), std::string::npos) << run.out;
-  EXPECT_NE(run.err.find("let the clock of the log start at 0"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("shift the clock of the log to start at 0"), std::string::npos) << run.err;
   EXPECT_FALSE(fs::exists(out_));
 }
 

@@ -149,7 +149,7 @@ TEST_F(HostileFile, AColumnThatIsComputedIsNotRun) {
       "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data AS (hex(zeroblob(100000000))));"
       "WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c WHERE x < 500) "
       "INSERT INTO messages(id, topic_id, timestamp) SELECT x, 1, x FROM c");
-  expect_says(refusal(read_soon(path)), "the table \"messages\" has a column that is computed");
+  expect_says(refusal(read_soon(path)), "the table \"messages\" has a computed column");
 }
 
 TEST_F(HostileFile, AViewInPlaceOfATableIsNotRun) {
@@ -157,7 +157,7 @@ TEST_F(HostileFile, AViewInPlaceOfATableIsNotRun) {
       database(std::string(kTopicsTable) +
                "CREATE VIEW messages AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) "
                "SELECT x AS id, 1 AS topic_id, x AS timestamp, x'00' AS data FROM c");
-  expect_says(refusal(read_soon(path)), "\"messages\" is no plain table");
+  expect_says(refusal(read_soon(path)), "\"messages\" is not a plain table");
 }
 
 TEST_F(HostileFile, ADefaultValueOfManyRowsIsRefused) {
@@ -302,13 +302,13 @@ TEST_F(HostileHdf5, IntactFilesWithoutATableSayWhatTheyHold) {
   expect_says(made_of([](Hdf5Made& file) {
                 file.add("image", 4, 0, {}, 0, {5, 6});
               }),
-              "three dimensions or more, but a log has a vector of times");
+              "three dimensions or more, but a log needs a vector of times");
   expect_says(made_of([](Hdf5Made& file) { file.add("t", 0, 0, {}), file.add("q1", 0, 0, {}); }),
               "nothing was recorded");
   for (const hsize_t chunk : {hsize_t{0}, hsize_t{100}})
     expect_says(
         made_of([&](Hdf5Made& file) { file.add("t", 100, chunk, {}), file.add("q1", 100, chunk, {}); }),
-        "has room for rows, but none was written");
+        "has space for rows, but none was written");
 }
 
 }  // namespace

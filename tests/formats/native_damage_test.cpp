@@ -177,7 +177,7 @@ TEST_F(NativeDamage, MoreChannelsThanAnyLogHasAreRefused) {
   const std::string numbers(1000, '\0');
   const Outcome outcome =
       read(native_preface_of(1, list) + native_header_of(kChunkMarker, kMostChunkRows, 0, numbers));
-  EXPECT_NE(outcome.refused.find("promises 150000 channels"), std::string::npos) << outcome.refused;
+  EXPECT_NE(outcome.refused.find("declares 150000 channels"), std::string::npos) << outcome.refused;
 }
 
 TEST_F(NativeDamage, NestedDamagedChunksTakeNoQuadraticTime) {

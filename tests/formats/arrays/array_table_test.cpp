@@ -41,11 +41,13 @@ TEST(ArrayTable, ASignalThatIsLeftOutIsAWarningAndAListOfConstantsANote) {
   const Issue* signals = table.issues.find("signal_left_out");
   ASSERT_TRUE(signals);
   EXPECT_EQ(signals->severity, Severity::warning);
-  EXPECT_NE(signals->message.find("\"tau\" (99 x 2), \"temperature\" (500) fit no table"), std::string::npos)
+  EXPECT_NE(signals->message.find("\"tau\" (99 x 2), \"temperature\" (500) do not fit a table"),
+            std::string::npos)
       << signals->message;
   const Issue* others = table.issues.find("array_left_out");
   ASSERT_TRUE(others);
-  EXPECT_NE(others->message.find("\"gains\" (7), \"image\" (500 x 600) fit no table"), std::string::npos)
+  EXPECT_NE(others->message.find("\"gains\" (7), \"image\" (500 x 600) do not fit a table"),
+            std::string::npos)
       << others->message;
 }
 
