@@ -51,7 +51,7 @@ void take_models(const std::vector<std::string>& given, const std::string& cases
   if (cases.empty()) return;
   if (given.size() > 1)
     throw Error(ErrorCode::usage, "--cases " + cases,
-                "is for a batch of one model; of several, each has its case base beside it");
+                "applies to a batch with one model; of several models, each uses the case base beside it");
   request.models.front().files.cases = cases;
 }
 
@@ -89,7 +89,7 @@ void add_merge(CLI::App& batch, Program& program) {
   auto into = std::make_shared<std::string>(), json = std::make_shared<std::string>();
   CLI::App* merge = batch.add_subcommand("merge", "Put the results of all shards into one folder");
   merge->add_option("OUT", *folders, "Folders of finished shards")->required();
-  merge->add_option("-o,--output", *into, "Folder for the whole")->required()->type_name("DIR");
+  merge->add_option("-o,--output", *into, "Folder for the merged results")->required()->type_name("DIR");
   add_file_option(*merge, "--json", *json, "Write the summary as JSON");
   merge->footer("Example: faultline batch merge out/part-* -o out/all");
   merge->callback([=, &program] {
@@ -98,27 +98,33 @@ void add_merge(CLI::App& batch, Program& program) {
 }
 
 void add_options(CLI::App& command, BatchArguments& arguments) {
-  command.add_option("PATH", arguments.paths, "Logs, and folders with logs in them or below");
+  command.add_option("PATH", arguments.paths, "Logs, and folders that hold logs, with their subfolders");
   command
       .add_option(
           "--model", arguments.given,
-          "Model made by faultline learn; DIR=MODEL for the logs below folder DIR (may be given often)")
+          "Model made by faultline learn; DIR=MODEL for the logs below folder DIR (may be given several "
+          "times)")
       ->type_name("[DIR=]MODEL")
       ->allow_extra_args(false);
-  command.add_option("-o,--output", arguments.folder, "Folder for the results; an earlier run there goes on")
+  command
+      .add_option("-o,--output", arguments.folder,
+                  "Folder for the results; an earlier run there is continued")
       ->type_name("DIR");
   command.add_option("--cases", arguments.cases, "Case base of the only model, MODEL.cases.db by default")
       ->type_name("FILE");
-  command.add_flag("--html", arguments.options.html, "A page for each log, too");
+  command.add_flag("--html", arguments.options.html, "Also write a page for each log");
   command.add_flag("--identify", arguments.options.identify,
                    "Identify the robot from each healthy log alone, and show the trend of its parameters");
   add_file_option(command, "--json", arguments.json, "Write the summary as JSON");
-  command.add_option("--threads", arguments.options.threads, "Logs at once; 0 = one a core")
+  command
+      .add_option("--threads", arguments.options.threads,
+                  "Number of logs diagnosed at once; 0 = one per core")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
-  command.add_option("--shard", arguments.shard, "Only part I of N of the list")->type_name("I/N");
+  command.add_option("--shard", arguments.shard, "Diagnose only part I of N of the list of logs")
+      ->type_name("I/N");
   command.add_flag("--wait", arguments.options.wait, "Wait while another batch writes into the same folder");
-  add_diagnose_options(command, arguments.options.diagnose, "As of faultline diagnose");
+  add_diagnose_options(command, arguments.options.diagnose, "As for faultline diagnose");
 }
 
 void refuse_incomplete(const BatchArguments& arguments) {
@@ -136,7 +142,7 @@ void add_batch(CLI::App& app, Program& program) {
   add_options(*command, *arguments);
   add_merge(*command, program);
   command->footer(
-      "Run the same command again to go on after an interruption.\n"
+      "Run the same command again to continue after an interruption.\n"
       "Exit status: the worst of all logs. 0: healthy, 1: faults or no verdict, 3: a log cannot be used.\n"
       "Example: faultline batch runs/ --model robot.model -o out/runs");
   command->callback([arguments, command, &program] {

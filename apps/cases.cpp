@@ -41,13 +41,14 @@ void add_label(CLI::App* command, const Arguments& arguments, const std::string&
 }
 
 void add_reading_actions(CLI::App* cases, Program& program, const Arguments& arguments) {
-  CLI::App* command = add_action(cases, program, arguments, "list", "List cases, one a line", list_cases);
+  CLI::App* command = add_action(cases, program, arguments, "list", "List cases, one per line", list_cases);
   add_label(command, arguments, "Only cases of this fault");
   command->add_option("--outcome", arguments->outcome, "Only unconfirmed, confirmed or rejected ones");
   command->add_option("--origin", arguments->origin,
-                      "Only field (a person said what it was), labelled (logs), diagnosed or simulated ones");
-  command->add_option("--by", arguments->by, "Only what this person said")->type_name("PERSON");
-  command->add_option("--robot", arguments->robot, "Only of this robot")->type_name("NAME");
+                      "Only cases of this origin: field (described by a person), labelled (logs), "
+                      "diagnosed or simulated");
+  command->add_option("--by", arguments->by, "Only cases described by this person")->type_name("PERSON");
+  command->add_option("--robot", arguments->robot, "Only cases of this robot")->type_name("NAME");
   command->footer("Example: faultline cases list --model bench.json --outcome unconfirmed");
   command = add_action(cases, program, arguments, "show", "Show one case in full", show_case);
   command->add_option("ID", arguments->id, "Number of the case")->required();
@@ -55,13 +56,13 @@ void add_reading_actions(CLI::App* cases, Program& program, const Arguments& arg
   command =
       add_action(cases, program, arguments, "export", "Write all cases as JSON, without loss", export_cases);
   command->add_flag("--confirmed", arguments->confirmed,
-                    "Only cases of the robot at work of which a person said what they were");
+                    "Only cases from the field that a person confirmed or corrected");
   command->add_option("-o,--output", arguments->file, "File, - for standard output (default)");
   command->footer("Example: faultline cases export --model bench.json -o cases.json");
 }
 
 void add_signature(CLI::App* command, const Arguments& arguments) {
-  command->add_option("--by", arguments->by, "Who says so")->type_name("PERSON");
+  command->add_option("--by", arguments->by, "Person who states this")->type_name("PERSON");
   command->add_option("--date", arguments->date, "When, YYYY-MM-DD (default: today, or SOURCE_DATE_EPOCH)")
       ->type_name("DATE");
 }
@@ -82,26 +83,27 @@ void add_writing_actions(CLI::App* cases, Program& program, const Arguments& arg
       add_action(cases, program, arguments, "add", "Add a diagnosed fault as a case", add_case);
   command->add_option("DIAGNOSIS", arguments->diagnosis, "JSON report of faultline diagnose");
   command->add_option("--fault-id", arguments->fault_id, "Number of the fault in the report (default 1)");
-  add_label(command, arguments, "What it really was; the case is then confirmed");
+  add_label(command, arguments, "Actual fault; the case is then confirmed");
   command->add_option("--done", arguments->done, "What was done about it")->type_name("TEXT");
   add_signature(command, arguments);
-  command->add_option("--robot", arguments->robot, "The robot it was seen on (default: that of the report)")
+  command
+      ->add_option("--robot", arguments->robot, "The robot that had the fault (default: that of the report)")
       ->type_name("NAME");
   command->footer(
-      "An event that is a case already is not added again; what is new about it is kept.\n"
+      "An event that is already a case is not added again; new statements about it are kept.\n"
       "Example: faultline cases add report.json --fault locked --joint 2 --by Weber --model bench.json");
-  add_revision(cases, program, arguments, "confirm", "Say that a case was decided right",
-               "What it was, if not that", confirm_case);
-  add_revision(cases, program, arguments, "reject", "Say that a case was decided wrong",
-               "What it was, if known", reject_case);
+  add_revision(cases, program, arguments, "confirm", "Confirm that the decision of a case was right",
+               "Actual fault, if it differs from the decision", confirm_case);
+  add_revision(cases, program, arguments, "reject", "Record that the decision of a case was wrong",
+               "Actual fault, if known", reject_case);
   command = add_action(cases, program, arguments, "delete", "Remove a case for good", delete_case);
   command->add_option("ID", arguments->id, "Number of the case")->required();
   command->footer("Example: faultline cases delete 12 --model bench.json");
   command = add_action(cases, program, arguments, "import", "Make a case base from an export", import_cases);
   command->add_option("FILE", arguments->file, "File written by export, - for standard input")->required();
   CLI::Option* merge = command->add_flag("--merge", arguments->merge,
-                                         "Add the cases that are new to a base of the same kind of robot");
-  command->add_flag("--replace", arguments->replace, "Replace a base that is there")->excludes(merge);
+                                         "Add the new cases to a case base of the same kind of robot");
+  command->add_flag("--replace", arguments->replace, "Replace an existing case base")->excludes(merge);
   command->footer("Example: faultline cases import cases.json --cases " + case_base_path("bench.json"));
 }
 
@@ -113,7 +115,7 @@ void add_cases(CLI::App& app, Program& program) {
   cases->fallthrough();
   cases->require_subcommand(1);
   CLI::Option* file = cases->add_option("--cases", arguments->cases, "The case base")->type_name("FILE");
-  add_model_option(*cases, *arguments, "The model whose case base is meant (" + case_base_path("MODEL") + ")")
+  add_model_option(*cases, *arguments, "The model whose case base is used (" + case_base_path("MODEL") + ")")
       ->excludes(file);
   cases->add_flag("--json", arguments->json, "Print JSON");
   add_reading_actions(cases, program, arguments);

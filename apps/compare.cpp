@@ -45,11 +45,10 @@ RunSignals read_run(const std::string& path, const Model* model) {
   if (rate.is_models()) return run_signals(path, read_all(*log), &model->residual);
   const Issue resampled = resampled_issue(rate, *model);
   if (!rate.can_be_resampled())
-    throw Error(
-        ErrorCode::input, path,
-        fmt::format("has a sample every {:.4g} s, the model was learned from logs with one every {:.4g} s; "
-                    "compare without --model",
-                    rate.period_s, model->sample_period_s));
+    throw Error(ErrorCode::input, path,
+                fmt::format("has a sample every {:.4g} s, but the model was learned from logs with one "
+                            "every {:.4g} s; compare without --model",
+                            rate.period_s, model->sample_period_s));
   tell(path + ": " + resampled.message);
   return run_signals(path, read_all(*at_model_rate(*log, *model)), &model->residual);
 }
@@ -79,18 +78,18 @@ int run_compare(const CompareArguments& arguments) {
 void add_compare(CLI::App& app, Program& program) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command =
-      app.add_subcommand("compare", "Compare two runs signal by signal: where they part, and by how much");
+      app.add_subcommand("compare", "Compare two runs signal by signal: where they differ, and by how much");
   command->add_option("FIRST", arguments->first, "A log, such as a good run")->required();
   command->add_option("SECOND", arguments->second, "Another log of the same robot")->required();
   command
       ->add_option("--model", arguments->model,
-                   "Model of the robot: its columns and units, and residuals of both runs")
+                   "Model of the robot, for its columns and units and for residuals of both runs")
       ->type_name("MODEL");
   add_choice_option(
       *command, "--align", kAlignments,
       [arguments](std::size_t place) { arguments->options.align = static_cast<AlignmentKind>(place); },
-      "time: each from its first row; motion: by the references, a constant shift or a warp; auto: motion where "
-      "that is better")
+      "time: each from its first row; motion: by the references, a constant shift or a warp; auto: motion "
+      "if that is better")
       ->default_str(kAlignments.front());
   add_file_option(*command, "--html", arguments->html, "Write a page with plots");
   add_file_option(*command, "--json", arguments->json, "Write the comparison as JSON");

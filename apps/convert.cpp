@@ -81,7 +81,7 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
     copy_rows(*source, *writer, bar.callback());
   }
   if (!arguments.diagnosis.empty() && !writer->note_events(events))
-    throw Error(ErrorCode::usage, "--diagnosis", "only a log written as .mcap holds events");
+    throw Error(ErrorCode::usage, "--diagnosis", "only a log written as .mcap can hold events");
   const std::string provenance = provenance_of(*source);
   if (!provenance.empty()) writer->note_provenance(provenance);
   writer->commit();
@@ -94,20 +94,19 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
 void add_convert(CLI::App& app, Program& program) {
   auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* command =
-      app.add_subcommand("convert", "Write a log in another format, its columns as channels in SI");
+      app.add_subcommand("convert", "Write a log in another format, its columns as channels in SI units");
   command->add_option("LOG", arguments->log, "The log to read")->required();
   command->add_option("OUT", arguments->out, "The file to write: " + written_extensions())->required();
-  command->add_option("--robot", arguments->robot, "Robot file that says what the columns mean")
+  command->add_option("--robot", arguments->robot, "Robot file that defines what the columns mean")
       ->type_name("ROBOT.toml");
   command
       ->add_option("--diagnosis", arguments->diagnosis,
-                   "A diagnosis of this log, whose events go into a .mcap")
+                   "A diagnosis of this log, whose events are written into a .mcap")
       ->type_name("REPORT.json");
   add_log_selection(*command, arguments->parts);
   command->footer(
-      "The converted log needs no column mapping any more. Rows without a usable time are left out and "
-      "told.\n"
-      "Exit status 1: rows, values or signals were lost; the converted log says so, too.\n"
+      "The converted log needs no column mapping. Rows without a usable time are left out and reported.\n"
+      "Exit status 1: rows, values or signals were lost; the converted log records this, too.\n"
       "Example: faultline convert run.csv run.flog --robot robot.toml");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return convert(*arguments, program.color); };

@@ -80,7 +80,8 @@ void claim_files(const DiagnoseArguments& arguments) {
 
 int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   if (arguments.recording == "-")
-    throw Error(ErrorCode::usage, kRecordingOption, "writes a file, not to standard output; give it a name");
+    throw Error(ErrorCode::usage, kRecordingOption,
+                "cannot write to standard output; give the name of a file");
   claim_files(arguments);
   const auto [model, cases] = load_model_files(arguments.model, arguments.case_base());
   const auto log = prefetched(open_robot_log(arguments.log, model.robot, arguments.parts));
@@ -118,7 +119,8 @@ void add_diagnose(CLI::App& app, Program& program) {
   add_diagnose_options(*command, arguments->options);
   add_log_selection(*command, arguments->parts);
   command->footer(
-      "Exit status 0: healthy, 1: a fault was found, or no verdict is possible (\"No verdict\", verdict inconclusive).\n"
+      "Exit status 0: healthy, 1: a fault was found, or no verdict is possible (\"No verdict\", verdict "
+      "inconclusive).\n"
       "Example: faultline diagnose run.csv --model robot.model --json report.json");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return run_diagnose(*arguments, program.color); };

@@ -38,7 +38,7 @@ int guarded(const std::function<int()>& work) {
     return fail(status_of(error.code()), error.what());
   } catch (const std::bad_alloc&) {
     return fail(kInternalError,
-                "the machine has not enough free memory for this; use a shorter log or free some");
+                "the machine has too little free memory for this; use a shorter log, or free some memory");
   } catch (const std::exception& error) {
     return fail(kInternalError,
                 std::string("internal error, please report it with the command line: ") + error.what());

@@ -38,7 +38,7 @@ int help(const CommandDescription& program, const HelpArguments& arguments) {
       return kNothingFound;
     }
   const std::string unknown = about_unknown_word(program, arguments.command);
-  throw Error(ErrorCode::usage, "command line", unknown.empty() ? name + " is no command" : unknown);
+  throw Error(ErrorCode::usage, "command line", unknown.empty() ? name + " is not a command" : unknown);
 }
 
 }  // namespace

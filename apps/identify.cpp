@@ -79,7 +79,8 @@ void check_outputs(const IdentifyArguments& arguments) {
   if (!arguments.suggest.empty() && arguments.output == "-")
     throw Error(
         ErrorCode::usage, "--suggest",
-        "the suggested motion names the identified robot's file, and -o is standard output; give -o a file");
+        "the suggested motion refers to the identified robot's file, but -o is standard output; give -o a "
+        "file");
 }
 
 int run_identify(const IdentifyArguments& arguments, ColorChoice color) {
@@ -121,19 +122,19 @@ void add_identify(CLI::App& app, Program& program) {
   add_file_option(*command, "--html", arguments->html, "Write a page with plots");
   command->add_option("--pictures", arguments->pictures, "Write the page's plots into this folder, as SVG");
   add_file_option(*command, "--suggest", arguments->suggest,
-                  "Write a motion that tells the parameters better, a spec for faultline simulate");
+                  "Write a motion that excites the parameters better, as a spec for faultline simulate");
   add_choice_option(*command, "--method", arguments->options.method, kMethods,
                     "automatic, weak_form or output_error");
   command->add_flag("--keep-all", arguments->options.keep_all, "Also use logs that disagree with the others");
   command->add_flag(
       "--force", arguments->force,
-      "Also use logs whose numbers are hardly in their units, such as degrees taken for radians");
+      "Also use logs whose numbers are implausible in their units, such as degrees read as radians");
   command
       ->add_option("--threads", arguments->options.threads,
-                   "Threads; 0 is one a core. The result does not depend on it")
+                   "Number of threads, 0 = one per core; the result does not depend on it")
       ->check(CLI::Range(0, kMostThreads));
   command->footer(
-      "Exit status 0: identified, 1: the logs are not what this robot needs for its motion (unexplained).\n"
+      "Exit status 0: identified, 1: this robot does not explain the logs (unexplained).\n"
       "Example: faultline identify healthy1.csv healthy2.csv --robot robot.toml -o identified.toml");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return run_identify(*arguments, program.color); };

@@ -48,7 +48,7 @@ std::vector<Inspection> inspect_all(const InspectArguments& arguments, ColorChoi
 /// Writes the suggested robot file. Throws as loading it would; then nothing is written.
 void suggest_robot(const InspectArguments& arguments) {
   if (arguments.logs.size() != 1)
-    throw Error(ErrorCode::usage, "--suggest", "takes one log; give the one that shows most motion");
+    throw Error(ErrorCode::usage, "--suggest", "takes one log; give the one with most motion");
   const RawExcerpt excerpt = raw_excerpt(arguments.logs.front());
   const std::string text = robot_guess_text(guess_robot(excerpt), excerpt);
   robot_from_toml(text, arguments.suggest);
@@ -81,9 +81,9 @@ int inspect(const InspectArguments& arguments, ColorChoice color) {
 
 void add_inspect(CLI::App& app, Program& program) {
   auto arguments = std::make_shared<InspectArguments>();
-  CLI::App* command = app.add_subcommand("inspect", "Tell what is in logs and what is wrong with them");
+  CLI::App* command = app.add_subcommand("inspect", "Report what logs contain and what is wrong with them");
   command->add_option("LOG", arguments->logs, "Log files")->required();
-  command->add_option("--robot", arguments->robot, "Robot file that says what the columns mean")
+  command->add_option("--robot", arguments->robot, "Robot file that defines what the columns mean")
       ->type_name("ROBOT.toml");
   add_file_option(*command, "--json", arguments->json, "Write the findings as JSON",
                   " to this file, - for standard output");
@@ -91,8 +91,8 @@ void add_inspect(CLI::App& app, Program& program) {
   add_file_option(*command, "--html", arguments->html, "Write a page with pictures of all channels",
                   " to this file, - for standard output");
   add_file_option(*command, "--suggest", arguments->suggest,
-                  "Write a robot file that names, units and data of the log suggest",
-                  "; - for standard output, without the rest");
+                  "Write a robot file guessed from names, units and data of the log",
+                  "; - for standard output, without the report");
   command->footer(
       "Exit status 1 when something severe was found.\n"
       "Example: faultline inspect run.csv --robot robot.toml --json findings.json");

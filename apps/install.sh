@@ -42,7 +42,7 @@ release_packages=(
 [ "${1:-}" = --release ] && packages+=("${release_packages[@]}")
 
 if ! command -v apt-get >/dev/null; then
-  echo "install: this is no Debian; install the packages of this list by other means: ${packages[*]}" >&2
+  echo "install: this is not Debian; install the packages of this list by other means: ${packages[*]}" >&2
   exit 0
 fi
 

@@ -100,13 +100,14 @@ void add_learn(CLI::App& app, Program& program) {
       ->capture_default_str();
   command
       ->add_option("--alarms-per-hour", arguments->options.alarms_per_hour,
-                   "False alarms that chance may raise in an hour of healthy log")
+                   "Accepted number of false alarms by chance per hour of healthy log")
       ->capture_default_str();
   command->add_flag("--keep-all", arguments->options.identify.keep_all,
-                    "Also learn from logs that the others contradict");
+                    "Also learn from logs that contradict the others");
   command->add_flag("--force", arguments->options.keep_doubtful,
-                    "Write a model that is not to be trusted, too; each diagnosis says that it is doubtful");
-  command->add_option("--seed", arguments->options.seed, "Of every random choice")->capture_default_str();
+                    "Write the model even if it failed its checks; each diagnosis then reports it as "
+                    "doubtful");
+  command->add_option("--seed", arguments->options.seed, "Seed of all random choices")->capture_default_str();
   add_threads_option(*command, arguments->options.threads);
   command->add_flag_callback(
       "--show-twin",

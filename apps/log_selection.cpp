@@ -15,16 +15,17 @@ void add_log_selection(CLI::App& command, LogSelection& parts) {
       ->allow_extra_args(false);
   command
       .add_option("--join-by", parts.by,
-                  "How rows belong together: time, row, or auto (by time where both have one)")
+                  "How rows are matched: time, row, or auto (by time if both files have one)")
       ->transform(CLI::CheckedTransformer(ways).description("{auto,row,time}"))
       ->type_name("HOW");
-  command.add_option("--then", parts.then, "A file in which the log goes on; may be given several times")
+  command.add_option("--then", parts.then, "A file that continues the log; may be given several times")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command
       .add_option(
           "--run", parts.run,
-          "Read one run only of a log in which the clock restarts, from 1; else all, one after the other")
+          "Read only this run, counted from 1, of a log in which the clock restarts; default: all runs, "
+          "one after the other")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
 }

@@ -22,13 +22,13 @@ int sign_model(const SignArguments& arguments) {
   const std::string accepted = signed_model_text(text, arguments.why, arguments.model);
   model_from_json(accepted, arguments.model);
   if (accepted == text) {
-    print(printable(arguments.model) + " fits its digest; there is nothing to sign" +
+    print(printable(arguments.model) + " matches its digest; there is nothing to sign" +
           (arguments.why.empty() ? ".\n" : ", and --why is not kept.\n"));
     return kNothingFound;
   }
   write_file(arguments.model, accepted);
   print(printable(arguments.model) +
-        " is accepted as it is now; each report that is made with it says that it was edited.\n");
+        " is accepted as it is now; each report made with it states that it was edited.\n");
   return kNothingFound;
 }
 
@@ -39,9 +39,9 @@ void add_model(CLI::App& app, Program& program) {
   model->require_subcommand(1);
   auto arguments = std::make_shared<SignArguments>();
   CLI::App* sign = model->add_subcommand(
-      "sign", "Accept a model that was edited on purpose and does not fit its digest any more");
+      "sign", "Accept a model that was edited on purpose and no longer matches its digest");
   sign->add_option("MODEL", arguments->model, "The model; it is changed in place")->required();
-  sign->add_option("--why", arguments->why, "What was edited and why; stands in each report")
+  sign->add_option("--why", arguments->why, "What was edited and why; shown in each report")
       ->type_name("TEXT");
   sign->footer(
       "Example: faultline model sign robot.model --why \"higher alarm threshold for the night shift\"");

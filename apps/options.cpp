@@ -23,7 +23,9 @@ CLI::Option* add_file_option(CLI::App& command, const std::string& flag, std::st
 }
 
 CLI::Option* add_threads_option(CLI::App& command, int& threads) {
-  return command.add_option("--threads", threads, "0 = one a core; changes no byte")
+  return command
+      .add_option("--threads", threads,
+                  "Number of threads, 0 = one per core; the result does not depend on it")
       ->check(CLI::Range(0, kMostThreads))
       ->capture_default_str();
 }
@@ -32,13 +34,15 @@ void add_diagnose_options(CLI::App& command, DiagnoseOptions& options, const std
   const auto words = [&](const char* own) { return help.empty() ? own : help; };
   add_choice_option(
       command, "--classify", options.mode, kClassifyModes,
-      words("evidence: hypotheses on the identified robot, classified by both networks; samples: the paper's "
-            "way, both networks over the residuals of each sample"))
+      words("evidence: hypotheses on the identified robot, classified by both networks; samples: the "
+            "method of the paper, both networks on the residuals of each sample"))
       ->default_str(to_string(options.mode));
   add_choice_option(command, "--criterion", options.criterion, kCriterionKinds,
                     words("With --classify samples: sum of log odds, or g consecutive samples (the paper)"))
       ->default_str(to_string(options.criterion));
-  command.add_option("--g", options.g, words("With --criterion consecutive: samples; 0 = as tuned by learn"))
+  command
+      .add_option("--g", options.g,
+                  words("With --criterion consecutive: number of samples; 0 = as tuned by learn"))
       ->check(CLI::NonNegativeNumber);
 }
 

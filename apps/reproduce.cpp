@@ -35,8 +35,9 @@ std::string summary(const Reproduction& reproduction, const std::string& folder)
     lines += goal_line(goal);
   }
   return fmt::format(
-      "{} tables and {} pictures. {} of {} numbers reached:\n{}\nRead {}/index.md; all numbers are in "
-      "index.json.\n",
+      "{} tables and {} pictures. {} of {} goals reached:\n"
+      "{}\n"
+      "Read {}/index.md; all numbers are in index.json.\n",
       reproduction.tables.size(), reproduction.figures.size(), reached, reproduction.goals.size(), lines,
       folder);
 }
@@ -60,18 +61,19 @@ void add_reproduce(CLI::App& app, Program& program) {
   command->add_option("-o,--output", arguments->folder, "Folder for index.md, index.json and the pictures")
       ->type_name("DIR")
       ->capture_default_str();
-  command->add_flag("--quick", options.quick, "Orders of magnitude within a minute, from one experiment");
-  auto* seeds = command->add_option("--seeds", options.seeds, "Experiments; figures are their means")
-                    ->type_name("N")
-                    ->capture_default_str();
-  command->add_option("--seed", options.seed, "Of the first experiment")
+  command->add_flag("--quick", options.quick, "Run one experiment, for orders of magnitude within a minute");
+  auto* seeds =
+      command->add_option("--seeds", options.seeds, "Number of experiments; results are their means")
+          ->type_name("N")
+          ->capture_default_str();
+  command->add_option("--seed", options.seed, "Seed of the first experiment")
       ->type_name("N")
       ->capture_default_str();
   add_threads_option(*command, options.threads)->type_name("N");
   command->add_flag("--json", arguments->json, "Print index.json instead of a summary");
   command->footer(
-      "The full run takes some fifteen minutes on two cores.\nExample: faultline reproduce --quick -o "
-      "/tmp/paper");
+      "The full run takes about fifteen minutes on two cores.\n"
+      "Example: faultline reproduce --quick -o /tmp/paper");
   command->callback([arguments, seeds, &program] {
     if (arguments->options.quick && seeds->count() == 0) arguments->options.seeds = 1;
     program.run = [arguments, &program] { return run_reproduce(*arguments, program.color); };

@@ -52,8 +52,8 @@ void add_simulate(CLI::App& app, Program& program) {
   command->add_option("-o,--output", arguments->folder, "Folder for the logs and labels.csv")
       ->required()
       ->type_name("DIR");
-  command->add_option("--seed", arguments->seed, "Seed in place of the spec's")->type_name("N");
-  command->add_flag("--json", arguments->json, "Tell what was made as JSON");
+  command->add_option("--seed", arguments->seed, "Seed, instead of the one in the spec")->type_name("N");
+  command->add_flag("--json", arguments->json, "Print the simulated runs as JSON");
   command->footer("Example: faultline simulate sample_logs/bench/spec.toml -o /tmp/bench");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return simulate_file(*arguments, program.color); };

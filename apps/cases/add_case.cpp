@@ -93,7 +93,7 @@ Added add_to(CaseBase& base, const CasesArguments& arguments) {
   if (const Case* there = find_same_event(base, c)) {
     const Retold told = retold(*there, c, arguments);
     const std::string which =
-        fmt::format("this event is case {} already (the same log, onset and fault)", there->id);
+        fmt::format("this event is already case {} (the same log, onset and fault)", there->id);
     if (told.changes.empty()) return {there->id, which + "; nothing was changed", false};
     base.replace(told.revised);
     std::string list;

@@ -107,7 +107,7 @@ std::string CasesArguments::path() const {
 
 std::optional<FaultLabel> CasesArguments::label(const CaseBase& base) const {
   if (fault.empty() && joint == 0) return {};
-  if (fault.empty()) throw Error(ErrorCode::usage, "--joint", "needs --fault KIND beside it");
+  if (fault.empty()) throw Error(ErrorCode::usage, "--joint", "needs --fault KIND as well");
   const FaultLabel label = with_tip({fault_kind_from(fault), joint}, joints_of(base));
   check_label(base, label, "--fault " + label_text(label));
   return label;
@@ -160,12 +160,12 @@ CasesAnswer delete_case(const CasesArguments& arguments) {
   const Case deleted = base.at(arguments.id);
   change_case_base(arguments.path(), [&](CaseBase& there) {
     if (content_hash(there.at(deleted.id)) != content_hash(deleted))
-      throw Error(ErrorCode::usage, arguments.path(), "was changed meanwhile; look at the case again");
+      throw Error(ErrorCode::usage, arguments.path(), "was changed meanwhile; show the case again");
     there.remove(deleted.id);
   });
   CasesAnswer answer = answer_with(base, deleted, "deleted ");
   if (is_made_by_learn(deleted))
-    answer.note = "learn had made this case, and makes it again when it is run again";
+    answer.note = "this case was made by learn, which makes it again when it is next run";
   return answer;
 }
 

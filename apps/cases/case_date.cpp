@@ -40,7 +40,7 @@ std::string today() {
   std::tm parts{};
   if (epoch != nullptr && *epoch != '\0') {
     const auto seconds = number_in<long long>(epoch);
-    if (!seconds) throw Error(ErrorCode::usage, "SOURCE_DATE_EPOCH", "is no number of seconds since 1970");
+    if (!seconds) throw Error(ErrorCode::usage, "SOURCE_DATE_EPOCH", "is not a number of seconds since 1970");
     now = static_cast<std::time_t>(*seconds);
     gmtime_r(&now, &parts);
   } else {
@@ -55,7 +55,7 @@ std::string today() {
 std::string date_or_today(const std::string& date) {
   if (date.empty()) return today();
   if (!is_date(date))
-    throw Error(ErrorCode::usage, "--date", "\"" + date + "\" is no date; expected YYYY-MM-DD");
+    throw Error(ErrorCode::usage, "--date", "\"" + date + "\" is not a date; expected YYYY-MM-DD");
   return date;
 }
 

@@ -56,9 +56,9 @@ void bind_to_model(CaseBase& imported, const std::string& path) {
   const CaseRobot robot = case_robot_of(model);
   const std::string& axes = imported.robot().axes;
   if (!axes.empty() && axes != robot.axes)
-    throw Error(
-        ErrorCode::usage, path,
-        "is the model of a robot with the axes " + robot.axes + ", the cases are of one with " + axes);
+    throw Error(ErrorCode::usage, path,
+                "is the model of a robot with the axes " + robot.axes +
+                    ", but the cases are of a robot with the axes " + axes);
   const std::string seen_on = imported.robot().name;
   if (!seen_on.empty() && seen_on != robot.name)
     for (Case c : std::vector<Case>(imported.cases())) {
@@ -90,11 +90,11 @@ std::string replaced_text(const std::string& path) {
     const CaseBase old = read_case_base(path);
     const auto of_people = std::count_if(old.cases().begin(), old.cases().end(),
                                          [](const Case& c) { return !is_made_by_learn(c); });
-    return fmt::format("; {} that {} there before {} replaced, {} of them by people",
+    return fmt::format("; {} that {} there before {} replaced, {} of them described by people",
                        counted(std::ssize(old.cases()), "case"), old.cases().size() == 1 ? "was" : "were",
                        old.cases().size() == 1 ? "was" : "were", of_people);
   } catch (const Error&) {
-    return "; what was there before could not be read and was replaced";
+    return "; the earlier case base could not be read and was replaced";
   }
 }
 
@@ -114,7 +114,7 @@ CasesAnswer import_cases(const CasesArguments& arguments) {
   if (arguments.merge)
     merged = merge_into(arguments, imported);
   else if (has_case_base(path) && !arguments.replace)
-    throw Error(ErrorCode::usage, path, "is there already; choose --merge to add to it or --replace");
+    throw Error(ErrorCode::usage, path, "already exists; choose --merge to add to it, or --replace");
   else
     write_case_base(path, imported);
   const std::size_t read = imported.cases().size();

@@ -18,7 +18,8 @@ void add_golden_model(CLI::App& command, GoldenArguments& arguments, const char*
 }
 
 void add_golden_json(CLI::App& command, GoldenArguments& arguments) {
-  add_file_option(command, "--json", arguments.json, "Write differences and all that was compared as JSON");
+  add_file_option(command, "--json", arguments.json,
+                  "Write the differences and all compared results as JSON");
 }
 
 void add_golden_threads(CLI::App& command, GoldenArguments& arguments) {
@@ -27,7 +28,7 @@ void add_golden_threads(CLI::App& command, GoldenArguments& arguments) {
 
 void add_golden(CLI::App& app, Program& program) {
   CLI::App* golden = app.add_subcommand(
-      "golden", "Golden logs: record what is expected of logs, and check that it stays so");
+      "golden", "Golden logs: record the expected results for logs, and check them again later");
   golden->fallthrough();
   golden->require_subcommand(1);
   add_golden_record(golden, program);

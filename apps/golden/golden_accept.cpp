@@ -31,11 +31,10 @@ int run_accept(const AcceptArguments& arguments, ColorChoice color) {
     return plan.part.same() ? kNothingFound : kFindings;
   }
   if (plan.is_refused(arguments)) {
-    print(sentence("Nothing was changed. This model finds something else in", plan.otherwise));
+    print(sentence("Nothing was changed. This model changes the findings in", plan.otherwise));
     return kFindings;
   }
-  if (!plan.otherwise.empty())
-    print(sentence("Not accepted, since something else is found in", plan.otherwise));
+  if (!plan.otherwise.empty()) print(sentence("Not accepted, as the findings differ in", plan.otherwise));
   carry_out(plan, arguments);
   print(plan.names.empty()
             ? "There is nothing to accept.\n"
@@ -47,8 +46,8 @@ int run_accept(const AcceptArguments& arguments, ColorChoice color) {
 
 void add_golden_accept(CLI::App* golden, Program& program) {
   auto arguments = std::make_shared<AcceptArguments>();
-  CLI::App* command =
-      golden->add_subcommand("accept", "Show what differs and make it what is expected, of the logs named");
+  CLI::App* command = golden->add_subcommand(
+      "accept", "Show what differs, and make it the expected result of the named logs");
   command->fallthrough();
   command->add_option("DIR", arguments->folder, "The golden folder")->required();
   CLI::Option* names =
@@ -57,15 +56,14 @@ void add_golden_accept(CLI::App* golden, Program& program) {
       command->add_flag("--all", arguments->all, "Accept everything that differs")->excludes(names);
   command
       ->add_flag("--same-verdict", arguments->same_verdict,
-                 "Accept what differs in numbers and reasons only, not in what is found")
+                 "Accept differences in numbers and reasons only, not in what is found")
       ->excludes(names)
       ->excludes(all);
   add_golden_model(*command, *arguments,
-                   "Take this model into the folder; what is expected of logs that are not named stays");
+                   "Put this model into the folder; the expected results of logs that are not named stay");
   add_golden_threads(*command, *arguments);
   command->footer(
-      "Exit status 0: accepted or nothing to accept, 1: something that differs was not\n"
-      "accepted.\n"
+      "Exit status 0: accepted or nothing to accept, 1: some differences were not accepted.\n"
       "Example: faultline golden accept golden locked_1.csv identification");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return run_accept(*arguments, program.color); };

@@ -62,16 +62,17 @@ void add_golden_compare(CLI::App* golden, Program& program) {
   command
       ->add_option("SIDE", arguments->sides,
                    "A model (with " + case_base_path("MODEL") +
-                       " beside it), or what golden check --json wrote, by any version of the "
-                       "program; one alone is compared with the folder's model and this program")
+                       " beside it), or the output of golden check --json of any version of the program; a "
+                       "single one is compared with the folder's model and this program")
       ->required()
       ->expected(1, 2);
   add_golden_json(*command, *arguments);
   add_golden_threads(*command, *arguments);
   command->footer(
-      "Exit status 0: both say the same within the folder's tolerances, 1: they differ.\n"
+      "Exit status 0: both agree within the folder's tolerances, 1: they differ.\n"
       "Example: faultline golden compare golden old.model new.model\n"
-      "         old/faultline golden check golden --json old.json; faultline golden compare golden old.json");
+      "         old/faultline golden check golden --json old.json; faultline golden compare golden "
+      "old.json");
   command->callback([arguments, &program] {
     program.run = [arguments, &program] { return run_compare(*arguments, program.color); };
   });

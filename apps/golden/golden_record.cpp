@@ -30,7 +30,7 @@ std::string recorded_text(const Recorded& recorded, const std::string& folder) {
 
 int run_record(RecordArguments arguments, ColorChoice color) {
   for (const std::string& table : skip_label_tables(arguments.logs))
-    print(printable(table) + " is a table of labels, no log; it is skipped.\n");
+    print(printable(table) + " is a table of labels, not a log; it is skipped.\n");
   ProgressBar bar(color);
   print(recorded_text(record_folder(arguments, bar.callback()), arguments.folder));
   return kNothingFound;
@@ -41,9 +41,9 @@ int run_record(RecordArguments arguments, ColorChoice color) {
 void add_golden_record(CLI::App* golden, Program& program) {
   auto arguments = std::make_shared<RecordArguments>();
   CLI::App* command =
-      golden->add_subcommand("record", "Make a golden folder: logs, model and what faultline says now");
+      golden->add_subcommand("record", "Make a golden folder: logs, model and their current results");
   command->fallthrough();
-  command->add_option("LOG", arguments->logs, "Small logs, healthy ones and such with faults")->required();
+  command->add_option("LOG", arguments->logs, "Small logs, healthy ones and ones with faults")->required();
   add_golden_model(*command, *arguments, "Model made by faultline learn");
   command->get_option("--model")->required();
   command->add_option("-o,--output", arguments->folder, "The folder to make")->required()->type_name("DIR");
@@ -52,7 +52,7 @@ void add_golden_record(CLI::App* golden, Program& program) {
       "Do not identify the robot from the healthy logs");
   command
       ->add_option("--trace-points", arguments->options.trace_points,
-                   "Points of the predicted motion to keep of a log, at most")
+                   "Largest number of points of the predicted motion to keep per log")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   add_golden_threads(*command, *arguments);

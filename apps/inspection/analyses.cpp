@@ -58,12 +58,13 @@ void judge_torques(const Facts& facts, PossibleAnalysis& analysis) {
   if (!facts.all_torques) {
     analysis.why = facts.torques.empty() ? "there is no torque" : "not every joint has a torque";
     analysis.help =
-        "log the torque of every joint, or name it in the robot file: [log.columns] tau1 = {name = .., scale = .. "
-        "N m for 1 A}";
+        "log the torque of every joint, or name it in the robot file: [log.columns] tau1 = {name = .., "
+        "scale = .. N m for 1 A}";
     return;
   }
   if (facts.period_s > kSlowPeriod_s) {
-    analysis.why = fmt::format("a row every {:.3g} s is too coarse to tell accelerations", facts.period_s);
+    analysis.why =
+        fmt::format("a row every {:.3g} s is too coarse to estimate accelerations", facts.period_s);
     analysis.help = "log at 50 Hz or more";
     return;
   }
@@ -82,8 +83,8 @@ void judge_length(const Facts& facts, PossibleAnalysis& analysis) {
   if (analysis.fit == AnalysisFit::impossible) return;
   if (facts.span_s >= kShortLog_s && facts.inspection.rows_used >= kFewRows) return;
   analysis.fit = AnalysisFit::limited;
-  analysis.why =
-      fmt::format("{} rows in {:.3g} s say little of a robot", facts.inspection.rows_used, facts.span_s);
+  analysis.why = fmt::format("{} rows in {:.3g} s contain little information about a robot",
+                             facts.inspection.rows_used, facts.span_s);
   analysis.help = "give several logs, or one of a minute with all joints moving";
 }
 

@@ -59,7 +59,7 @@ std::string column_of(const ChannelSummary& channel, const Matching& matching,
 std::vector<std::string> what_is_lacking(const Log& log) {
   std::vector<std::string> lacking;
   if (log.tau.empty())
-    lacking.push_back("torque: without it only the motion can be judged, and no robot be identified");
+    lacking.push_back("torque: without it only the motion can be judged, and no robot can be identified");
   if (log.dq.empty()) lacking.push_back("velocity: it will be derived from the position");
   return lacking;
 }
@@ -78,8 +78,8 @@ void judge_robot(Inspection& inspection, const std::optional<Robot>& robot) {
   if (!robot || robot->joints() == inspection.joints) return;
   inspection.issues.add(
       {"other_robot", "", Severity::severe,
-       fmt::format("the log has positions of {} joints, the robot file {} axes; is it a log of another "
-                   "robot, or is a column not mapped?",
+       fmt::format("the log has positions of {} joints, but the robot file has {} axes; check if it is a "
+                   "log of another robot, or if a column is not mapped",
                    inspection.joints, robot->joints())});
 }
 
@@ -141,7 +141,8 @@ std::string words_of(const RowClock& clock) {
   const auto estimate = clock.estimate();
   if (!estimate) return "";
   return fmt::format(
-      ". By q and dq a row is {:.4g} +- {:.1g} s after the one before: t = {{name = \"@row\", scale = {:.4g}}}",
+      ". According to q and dq, a row is {:.4g} +- {:.1g} s after the one before: t = {{name = \"@row\", "
+      "scale = {:.4g}}}",
       estimate->period_s, estimate->std_s, estimate->period_s);
 }
 
@@ -209,7 +210,7 @@ std::string verdict_sentence_of(const Inspection& inspection) {
       });
   if (verdict == "sound")
     return std::string(for_all ? "the recording is sound: nothing is wrong with its data"
-                               : "the recording is sound, but not good for every analysis") +
+                               : "the recording is sound, but not suitable for every analysis") +
            kNotOfTheRobot;
   const auto severe = number(Severity::severe), warned = number(Severity::warning);
   if (verdict == "doubtful")

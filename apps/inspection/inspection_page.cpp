@@ -80,7 +80,7 @@ std::string findings(const Inspection& inspection, const Headings& headings) {
     text += item(to_string(issue.severity), what, issue.message);
   }
   return headings.of_part("Findings") +
-         (text.empty() ? "<p>Nothing wrong was found.</p>\n" : "<ul>\n" + text + "</ul>\n");
+         (text.empty() ? "<p>No problems were found.</p>\n" : "<ul>\n" + text + "</ul>\n");
 }
 
 std::string analyses(const Inspection& inspection, const Headings& headings) {
@@ -92,7 +92,7 @@ std::string analyses(const Inspection& inspection, const Headings& headings) {
       sentence += (sentence.empty() ? "from " : "; from ") + joined(analysis.channels);
     text += item(to_string(analysis.fit), analysis.what, sentence);
   }
-  return headings.of_part("What it is good for") + "<ul>\n" + text + "</ul>\n";
+  return headings.of_part("Possible analyses") + "<ul>\n" + text + "</ul>\n";
 }
 
 std::string time_facts(const Inspection& inspection, const Headings& headings) {
@@ -106,7 +106,7 @@ std::string time_facts(const Inspection& inspection, const Headings& headings) {
            {"jitter", fmt::format("{:.3g} s rms, {:.3g} s at most", time.jitter_s, time.largest_jitter_s)},
            {"gaps", fmt::format("{}, {:.4g} s together", time.gaps, time.in_gaps_s)},
            {"rows used of those read", fmt::format("{:.4g} %", 100.0 * inspection.share_used())},
-           {"rows of those the time has room for",
+           {"rows recorded of those that the time has room for",
             fmt::format("{:.4g} %", 100.0 * inspection.completeness())}},
           "Time");
   std::vector<HtmlRow> gaps;
@@ -175,7 +175,7 @@ std::string inspection_page(const std::vector<Inspection>& inspections) {
     text += top(inspection, headings) + findings(inspection, headings) + analyses(inspection, headings);
     if (!figures.empty())
       text += headings.of_part("The channels") +
-              "<p class=\"sub\">Shaded: gaps, and where a channel stood still though its "
+              "<p class=\"sub\">Shaded: gaps, and times at which a channel did not change although its "
               "joint moved.</p>\n" +
               figures;
     text += time_facts(inspection, headings) + channels(inspection, headings) + joints(inspection);

@@ -64,7 +64,7 @@ std::string joint_line(const JointCheckup& joint, std::size_t number) {
   if (velocity.is_difference) words.push_back("and was computed from it");
   if (!std::isnan(velocity.delay_rows)) words.push_back(fmt::format("{:.1f} rows late", velocity.delay_rows));
   if (!std::isnan(joint.torque.correlation))
-    words.push_back(fmt::format("torque goes with acceleration by {:.2f}", joint.torque.correlation));
+    words.push_back(fmt::format("torque correlates with acceleration ({:.2f})", joint.torque.correlation));
   if (!std::isnan(joint.torque.delay_rows))
     words.push_back(
         fmt::format("{:.1f} +- {:.1f} rows late", joint.torque.delay_rows, joint.torque.delay_doubt_rows));

@@ -32,8 +32,9 @@ std::string no_command(const CommandDescription& command, const std::string& wor
   for (const CommandDescription& below : command.commands) names.push_back(below.own_name());
   const std::string nearest = nearest_name(word, names);
   if (!nearest.empty())
-    return fmt::format("{} {} is no command; did you mean {} {}?", command.name, word, command.name, nearest);
-  return fmt::format("{} {} is no command; there are {}", command.name, word, fmt::join(names, ", "));
+    return fmt::format("{} {} is not a command; did you mean {} {}?", command.name, word, command.name,
+                       nearest);
+  return fmt::format("{} {} is not a command; there are {}", command.name, word, fmt::join(names, ", "));
 }
 
 bool is_number(const std::string& word) {
@@ -53,11 +54,11 @@ std::string about_unknown_word(const CommandDescription& program, const std::vec
       if (!option) option = option_named(program, flag);
       const bool is_long = word[1] == '-';
       if (!option && is_long)
-        return fmt::format("{} is no option of {}{}", flag, command->name,
+        return fmt::format("{} is not an option of {}{}", flag, command->name,
                            did_you_mean(nearest_name(flag, flags_of(*command))));
       if (!option && word.find('.') != std::string::npos && !is_number(word))
-        return fmt::format("{} is no option of {}; a file of that name is given as ./{}", word, command->name,
-                           word);
+        return fmt::format("{} is not an option of {}; a file of that name is given as ./{}", word,
+                           command->name, word);
       if (option && !option->value.empty() && flag == word) ++i;  // its value
       continue;
     }
@@ -73,8 +74,8 @@ std::string about_unknown_word(const CommandDescription& program, const std::vec
 
 std::string about_further_word(const CommandDescription& command) {
   if (command.own_name() != "diagnose") return "";
-  return "diagnose takes one log; for several runs: faultline batch LOG... --model MODEL -o DIR; for one run in "
-         "several files: --join or --then";
+  return "diagnose takes one log; for several runs: faultline batch LOG... --model MODEL -o DIR; for one "
+         "run in several files: --join or --then";
 }
 
 }  // namespace faultline

@@ -9,10 +9,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 out=$(realpath -m "${1:-dist}")
 
 if ! commit=$(git rev-parse --short HEAD 2>/dev/null); then
-  echo "release: this is no checkout of the repository; a release is made of a commit" >&2
+  echo "release: this is not a checkout of the repository; a release is made from a commit" >&2
   exit 2
 fi
-[ -z "$(git status --porcelain)" ] || echo "release: what is not committed is left out" >&2
+[ -z "$(git status --porcelain)" ] || echo "release: uncommitted changes are left out" >&2
 
 bash apps/install.sh
 bash apps/install.sh --release

@@ -63,7 +63,7 @@ std::tuple<std::string, std::string, std::string> act(const std::string& name, c
     const CasesAnswer answer = one.action(arguments);
     return {answer.json.dump(2) + "\n", answer.text, answer.note};
   }
-  throw Error(ErrorCode::internal, name, "is no action of cases");
+  throw Error(ErrorCode::internal, name, "is not an action of cases");
 }
 
 }  // namespace

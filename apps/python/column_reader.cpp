@@ -21,7 +21,8 @@ std::int64_t rows_of(const std::vector<ColumnView>& columns, const std::string& 
     if (rows < 0) rows = length;
     if (length != rows)
       throw Error(ErrorCode::input, name + ", column " + column.column.name,
-                  fmt::format("has {} values, the columns before it have {}; give columns of one length",
+                  fmt::format("has {} values, but the columns before it have {}; give columns of equal "
+                              "length",
                               length, rows));
   }
   return std::max(rows, std::int64_t{0});

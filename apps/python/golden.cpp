@@ -74,7 +74,7 @@ std::pair<std::vector<std::string>, std::vector<std::string>> accept(
   arguments.all = all;
   arguments.same_verdict = same_verdict;
   if (!arguments.accepts() || (!names.empty() + all + same_verdict) > 1)
-    throw Error(ErrorCode::usage, "accept", "needs names, all=True or same_verdict=True, one of them");
+    throw Error(ErrorCode::usage, "accept", "needs exactly one of names, all=True and same_verdict=True");
   return watched(progress, [&](WorkWatch& watch) {
     const AcceptPlan plan = plan_accept(arguments, watch.progress());
     if (plan.is_refused(arguments)) return std::pair(std::vector<std::string>{}, plan.otherwise);
@@ -93,7 +93,7 @@ void bind_golden(py::module_& module) {
              py::arg("threads"), py::arg("progress"), "Replays a golden folder and compares.");
   module.def("golden_accept", &accept, py::arg("folder"), py::arg("names"), py::arg("all"),
              py::arg("same_verdict"), py::arg("model"), py::arg("cases"), py::arg("threads"),
-             py::arg("progress"), "Makes what differs what is expected.");
+             py::arg("progress"), "Makes different results the expected ones.");
 }
 
 }  // namespace faultline

@@ -37,7 +37,7 @@ void bind_inspect(py::module_& module) {
           "html", [](const Inspection& seen) { return inspection_page({seen}); },
           "A page with pictures of all channels.");
   module.def("inspect", &inspect, py::arg("log"), py::arg("robot"), py::arg("progress"),
-             "Tells what is in a log and what is wrong with it.");
+             "Reports what a log contains and what is wrong with it.");
 }
 
 }  // namespace faultline

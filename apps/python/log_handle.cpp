@@ -39,7 +39,7 @@ LogHandle::LogHandle(std::string name, const std::vector<std::string>& names,
   }
   if (arrays_.empty())
     throw Error(ErrorCode::input, name_,
-                "has no column of numbers; a log has a time and a position at least");
+                "has no column of numbers; a log needs at least a time and a position");
 }
 
 std::vector<std::string> LogHandle::files() const {
@@ -126,7 +126,8 @@ LogSelection selection(std::vector<std::string> then, std::vector<std::string> j
   else if (by == "time")
     parts.by = JoinBy::time;
   else if (by != "auto")
-    throw Error(ErrorCode::usage, "join_by", "\"" + by + "\" is no way to join; expected auto, row or time");
+    throw Error(ErrorCode::usage, "join_by",
+                "\"" + by + "\" is not a way to join; expected auto, row or time");
   if (run < 0) throw Error(ErrorCode::usage, "run", "counts from 1; 0 reads every run");
   return parts;
 }

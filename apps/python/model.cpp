@@ -55,7 +55,7 @@ void bind_model(py::module_& module) {
           "Of the logs that it was learned from.")
       .def_property_readonly(
           "has_mechanics", [](const LoadedModel& m) { return m.model.has_mechanics(); },
-          "False for a model that knows only how joints follow their references.")
+          "False for a model that describes only how joints follow their references.")
       .def(
           "json", [](const LoadedModel& m) { return model_to_json(m.model); }, "The model file's text.")
       .def(

@@ -91,8 +91,8 @@ NetworkLayout evidence_layout(const Model& model, const std::string& name, std::
   const int known = static_cast<int>(features.columns.size()), taken = model.episode_classifier.scaler.size();
   if (taken != known)
     throw Error(ErrorCode::input, model.name,
-                fmt::format("its evidence classifiers take {} features, this program collects {}; learn the "
-                            "model again",
+                fmt::format("its evidence classifiers take {} features, but this program collects {}; "
+                            "learn the model again",
                             taken, known));
   layout.inputs.push_back(std::move(features));
   layout.output = of_classes("classes", model.episode_classifier.labels, std::move(output));

@@ -55,7 +55,8 @@ NetworkLayout layout_named(const Model& model, const std::string& network) {
     names += (names.empty() ? "" : ", ") + layout.name;
   }
   throw Error(ErrorCode::usage, "network",
-              "\"" + network + "\" is none of this model's, which are: " + (names.empty() ? "none" : names));
+              "\"" + network +
+                  "\" is not a network of this model; its networks are: " + (names.empty() ? "none" : names));
 }
 
 /// Returns columns x samples. Throws Error(usage) for another shape than that of the port.
@@ -63,7 +64,7 @@ MatrixXd matrix_of(const NetworkPort& port, const Rows& rows) {
   const auto columns = static_cast<py::ssize_t>(port.columns.size());
   if (rows.ndim() != 2 || rows.shape(1) != columns)
     throw Error(ErrorCode::usage, port.name,
-                fmt::format("is no matrix of {} columns, one row a sample: {}", columns,
+                fmt::format("is not a matrix of {} columns with one row per sample: {}", columns,
                             fmt::join(port.columns, ", ")));
   return Eigen::Map<const MatrixXd>(rows.data(), columns, rows.shape(0));
 }

@@ -152,8 +152,7 @@ std::vector<GuessedChannel> by_derivatives(const RawExcerpt& excerpt, int time) 
   for (const auto& [a, velocity] : velocity_of) {
     const int joint = static_cast<int>(found.size()) / 2 + 1;
     const std::string why = fmt::format(
-        "? its name does not say it; by the data: column {} is the derivative of "
-        "column {} (correlation {:.3f})",
+        "? not by its name, but by the data: column {} is the derivative of column {} (correlation {:.3f})",
         velocity.first + 1, a + 1, velocity.second);
     found.push_back({{Quantity::q, joint}, a, {}, why});
     found.push_back({{Quantity::dq, joint}, velocity.first, {}, why});
@@ -191,7 +190,7 @@ std::vector<GuessedChannel> by_numbers(const RawExcerpt& excerpt, int time) {
     found.push_back({{Quantity::q, static_cast<int>(found.size()) + 1},
                      column,
                      {},
-                     "? neither name nor data say that it is a position; it is numbered as joints are"});
+                     "? neither name nor data identify it as a position; it is numbered like joints"});
   return found;
 }
 
@@ -207,8 +206,8 @@ std::vector<GuessedChannel> guess_columns(const RawExcerpt& excerpt) {
                              time,
                              {},
                              named       ? "by its name"
-                             : time >= 0 ? "? its name does not say it; it rises steadily"
-                                         : "? no column is a time: the rows' numbers stand for it"};
+                             : time >= 0 ? "? not by its name, but it increases steadily"
+                                         : "? no column is a time: the row number is used instead"};
   if (!found.empty()) {
     found.front() = stamp;
     return found;
@@ -218,8 +217,8 @@ std::vector<GuessedChannel> guess_columns(const RawExcerpt& excerpt) {
   if (found.empty())
     throw Error(
         ErrorCode::input, excerpt.path,
-        "no column could be told to be a joint's position, neither by its name nor as one whose derivative "
-        "is another column; name one in a robot file: [log.columns] q1 = \"its name\"");
+        "no column could be identified as a joint's position, neither by its name nor as a column whose "
+        "derivative is another column; name one in a robot file: [log.columns] q1 = \"its name\"");
   found.insert(found.begin(), stamp);
   std::sort(found.begin(), found.end(),
             [](const GuessedChannel& a, const GuessedChannel& b) { return a.channel < b.channel; });

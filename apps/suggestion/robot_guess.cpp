@@ -38,17 +38,18 @@ GuessedAxis guess_axis(const JointNumbers& joint, const GuessedUnits& units, con
   const auto known = known_unit(units.position.unit);
   const Dimension dimension = known ? known->dimension : Dimension::none;
   if (dimension == Dimension::length)
-    return {true, header.empty() ? "its numbers are those of a length" : "its header says " + header};
+    return {true, header.empty() ? "its values are those of a length" : "its header gives " + header};
   if (dimension == Dimension::angle)
-    return {false, header.empty() ? "its numbers are those of an angle" : "its header says " + header};
+    return {false, header.empty() ? "its values are those of an angle" : "its header gives " + header};
   if (span < kRestSpan)
     return {false, "? the joint rests, so the log does not show whether it turns or slides"};
   if (span < kShortSpan && joint.carries)
-    return {true, fmt::format("? its torque carries a weight all the time, and it spans {:.3g} m", span)};
+    return {true, fmt::format("? its torque always carries a weight, and its position spans {:.3g} m", span)};
   if (span < kShorterSpan && joint.path > kToAndFro * joint.span)
-    return {true, fmt::format("? it goes to and fro over {:.3g}, little for an angle", span)};
+    return {true, fmt::format("? it moves back and forth over {:.3g}, a small range for an angle", span)};
   const std::string spans = fmt::format("spans {:.3g} rad", span);
-  return {false, span < kShorterSpan ? "? it " + spans + ", which may be a slide's as well" : spans};
+  return {false,
+          span < kShorterSpan ? "? it " + spans + ", which may also be the range of a sliding joint" : spans};
 }
 
 class Guesser {
@@ -60,8 +61,8 @@ class Guesser {
     for (const GuessedChannel& one : guess_.channels)
       if (one.channel.quantity == Quantity::q) joints_ = std::max(joints_, one.channel.joint);
     if (joints_ > kMaxJoints) {
-      guess_.untold.push_back(
-          fmt::format("the log has {} joints; only the first {} are taken", joints_, kMaxJoints));
+      guess_.untold.push_back(fmt::format("further joints: the log has {} joints; only the first {} are used",
+                                          joints_, kMaxJoints));
       joints_ = kMaxJoints;
       std::erase_if(guess_.channels,
                     [](const GuessedChannel& one) { return one.channel.joint > kMaxJoints; });
@@ -103,7 +104,7 @@ class Guesser {
     const std::string header = header_unit(&time);
     if (time.column == kRowNumber) {
       time.spec.scale = time_factor_ = 1e-3;
-      time.reason += "; 1 ms a row is only an example: put the true sample period into scale";
+      time.reason += "; 1 ms per row is only an example: set scale to the true sample period";
       guess_.untold.push_back("the sample period: no column is a time");
       return;
     }
@@ -164,7 +165,7 @@ class Guesser {
       GuessedChannel* velocity = find(Quantity::dq, j);
       velocity->spec.sign = -1.0;
       velocity->reason +=
-          "; sign: it falls where the position rises; which of the two is wrong cannot be told";
+          "; sign: it is negative while the position rises; the data do not show which of the two is wrong";
     }
   }
 
@@ -196,7 +197,7 @@ class Guesser {
       if (find(Quantity::tau, j)) tau.push_back(raw(Quantity::tau, j));
     if (tau.empty()) {
       guess_.untold.push_back(
-          "torque: no column is one; name it as tau1 = {name = .., scale = N m for 1 of it}");
+          "torque: no column is a torque; name one as tau1 = {name = .., scale = N m for a value of 1}");
       return;
     }
     guess_meaning(
@@ -216,7 +217,7 @@ class Guesser {
           torque.correlation < kAgainst || (torque.correlation < kRatherAgainst && power < kBrakes);
       if (!against) continue;
       one.spec.sign = -1.0;
-      one.reason += "; sign: it falls where the joint accelerates";
+      one.reason += "; sign: it decreases when the joint accelerates";
     }
   }
 
@@ -247,8 +248,10 @@ class Guesser {
   void take_columns_left() {
     const std::vector<int> left = columns_left();
     if (is_named() || !find(Quantity::dq, 1) || std::ssize(left) != joints_) return;
-    guess_.untold.push_back("how much torque 1 of the torque columns is: their names say no unit");
-    add_torques(left, "? as many columns as joints are left over, taken as the torques in their order");
+    guess_.untold.push_back("the torque for a value of 1 in the torque columns: their names give no unit");
+    add_torques(left,
+                "? as many columns as joints have no other meaning; they are used as the torques in their "
+                "order");
   }
 
   /// Finds for each joint the unused column that has the highest correlation with its acceleration.
@@ -269,8 +272,8 @@ class Guesser {
       found.push_back(*best);
       left.erase(best);
     }
-    guess_.untold.push_back("how much torque 1 of the torque columns is: their names say no unit");
-    add_torques(found, "? by the data: it goes with the joint's acceleration");
+    guess_.untold.push_back("the torque for a value of 1 in the torque columns: their names give no unit");
+    add_torques(found, "? by the data: it correlates with the joint's acceleration");
   }
 
   void guess_meaning(const GuessedChannel& tau) {
@@ -283,17 +286,17 @@ class Guesser {
       for (GuessedChannel& one : guess_.channels) {
         if (one.channel.quantity != Quantity::tau) continue;
         one.spec.unit = "N m";
-        one.reason +=
-            "; ? the header says " + column.unit + ": put N m for 1 of it into scale, and take the unit away";
+        one.reason += "; ? the header gives " + column.unit +
+                      ": set scale to the torque in N m for a value of 1, and remove the unit";
       }
-      guess_.untold.push_back("how much torque the " + column.unit + " of the torque columns are");
+      guess_.untold.push_back("the torque for 1 " + column.unit + " in the torque columns");
     } else if (quantity == Quantity::tau_meas) {
       guess_.torque = "measured";
       guess_.torque_reason = "by its name";
     } else if (quantity == Quantity::tau_ref) {
       guess_.torque_reason = "by its name";
     } else {
-      guess_.torque_reason = "? neither names nor data tell a commanded torque from a measured one";
+      guess_.torque_reason = "? neither names nor data show whether the torque is commanded or measured";
     }
   }
 

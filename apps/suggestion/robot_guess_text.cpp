@@ -33,9 +33,10 @@ std::string robot_guess_text(const RobotGuess& guess, const RawExcerpt& excerpt)
       comment(fmt::format("Suggested by faultline inspect from the first {} rows of {}.", excerpt.rows(),
                           std::filesystem::path(excerpt.path).filename().string()));
   text += "# Each guess has its reason above it; look at those that begin with \"?\".\n";
-  for (const std::string& what : guess.untold) text += comment("Could not be told: " + what);
+  for (const std::string& what : guess.untold) text += comment("Not determined: " + what);
   text +=
-      "# Could not be told: masses, lengths, the direction of gravity, and whether the joints are in this order.\n\n";
+      "# Not determined: masses, lengths, the direction of gravity, and whether the joints are in this "
+      "order.\n\n";
   text += "name = " + toml_quoted(valid_utf8(stem)) + "\n";
   std::string axes;
   for (std::size_t j = 0; j < guess.axes.size(); ++j) {
@@ -46,7 +47,8 @@ std::string robot_guess_text(const RobotGuess& guess, const RawExcerpt& excerpt)
   text += fmt::format("axes = \"{}\"\n\n[log]\n", axes);
   if (!guess.torque_reason.empty())
     text += comment("torque: " + guess.torque_reason) + fmt::format("torque = \"{}\"\n", guess.torque);
-  if (excerpt.canonical) return text + "# The columns are channels in SI: the file says what they are.\n";
+  if (excerpt.canonical)
+    return text + "# The columns are channels in SI units: the file defines what they are.\n";
   text += "\n[log.columns]\n";
   for (const GuessedChannel& one : guess.channels) {
     if (one.nanoseconds < 0)

@@ -136,7 +136,7 @@ GuessedUnit guess_time_unit(const std::vector<double>& time, const std::vector<J
     if (1.0 / (period * factor) > 5.0)
       return {unit, fmt::format("? the rows are {:.4g} apart: {:.4g} Hz is usual", period,
                                 1.0 / (period * factor))};
-  return {"", "? could not be told"};
+  return {"", "? not determined"};
 }
 
 GuessedUnits guess_joint_units(const JointNumbers& joint, double time_factor,

@@ -44,7 +44,7 @@ void take_shard(const std::string& text, BatchOptions& options) {
   int i = 0, n = 0;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%d/%d%c", &i, &n, &rest) != 2 || n < 1 || i < 0 || i > n)
-    throw Error(ErrorCode::usage, "--shard " + text, "is no part I/N with I from 1 to N, such as 2/8");
+    throw Error(ErrorCode::usage, "--shard " + text, "is not a part I/N with I from 1 to N, such as 2/8");
   options.shard = i % n;
   options.shards = n;
 }
@@ -54,15 +54,16 @@ BatchModel batch_model_of(const std::string& argument) {
   if (split == std::string::npos || std::filesystem::exists(argument)) return {{argument, ""}, ""};
   BatchModel model{{argument.substr(split + 1), ""}, argument.substr(0, split)};
   if (model.files.model.empty() || model.folder.empty())
-    throw Error(ErrorCode::usage, "--model " + argument, "names no folder or no model; give DIR=MODEL");
+    throw Error(ErrorCode::usage, "--model " + argument, "lacks the folder or the model; give DIR=MODEL");
   return model;
 }
 
 std::vector<BatchLog> claimed_logs(const BatchRequest& request) {
   std::vector<BatchLog> logs = find_logs(request.paths, log_name_endings());
   if (logs.empty())
-    throw Error(ErrorCode::input, request.paths.front(),
-                "has no log in it; known are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
+    throw Error(
+        ErrorCode::input, request.paths.front(),
+        "contains no log; known extensions are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
   choose_models(logs, request.models);
   claim_files(request, logs);
   return logs;

@@ -13,38 +13,38 @@
 namespace faultline {
 namespace {
 
-constexpr const char* kAdvice = "; learn into another -o, or move the case base away";
+constexpr const char* kAdvice = "; write to another -o, or move the case base away";
 
 }  // namespace
 
 void check_can_carry_over(const std::string& case_base, int joints) {
   if (::access(case_base.c_str(), W_OK) != 0)
     throw Error(ErrorCode::output, case_base,
-                std::string("is there already and cannot be changed, it is read-only") + kAdvice);
+                std::string("already exists and cannot be changed: it is read-only") + kAdvice);
   CaseBase there;
   try {
     there = read_case_base(case_base);
   } catch (const Error& error) {
     throw Error(
         ErrorCode::input, case_base,
-        "is there already and its confirmed cases cannot be carried over: it " + error.message() + kAdvice);
+        "already exists, but its confirmed cases cannot be carried over: it " + error.message() + kAdvice);
   }
   for (const Case& c : there.cases())
     if (!is_made_by_learn(c) && c.label.joint > joints)
       throw Error(ErrorCode::input, case_base,
-                  fmt::format("is there already and holds case {} of joint {}, but this robot has {}{}", c.id,
+                  fmt::format("already exists and holds case {} of joint {}, but this robot has {}{}", c.id,
                               c.label.joint, counted(joints, "joint"), kAdvice));
 }
 
 std::string carried_text(const std::optional<CarriedCases>& carried) {
   if (!carried) return "";
   std::string text =
-      fmt::format("There was a case base already: {} that learn had made {} made anew, {} carried over",
+      fmt::format("A case base already existed: {} made by learn {} made again, {} carried over",
                   counted(carried->replaced, "case"), carried->replaced == 1 ? "was" : "were",
                   counted(carried->carried, "other"));
   if (carried->recomputed > 0) text += fmt::format(", {} with new features", carried->recomputed);
   if (carried->old_features > 0)
-    text += fmt::format(", {} with the features of the earlier model and marked so", carried->old_features);
+    text += fmt::format(", {} marked and kept with the features of the earlier model", carried->old_features);
   if (carried->renumbered > 0) text += fmt::format(", {} under another number", carried->renumbered);
   return text + ".\n";
 }

@@ -68,7 +68,7 @@ std::vector<LogEvent> events_of_diagnosis(const std::string& report, const std::
   } catch (const std::exception&) {
     throw Error(
         ErrorCode::input, where,
-        std::string("is no diagnosis (schema ") + kSchema + "); write one with faultline diagnose --json");
+        std::string("is not a diagnosis (schema ") + kSchema + "); write one with faultline diagnose --json");
   }
   std::stable_sort(events.begin(), events.end(),
                    [](const LogEvent& a, const LogEvent& b) { return a.time_s < b.time_s; });

@@ -124,11 +124,11 @@ void FileUse::check_output(const Named& output) const {
     if (&other == &output) break;
     if (other.identity == output.identity)
       refuse(output.what, output.path,
-             "is where " + other.what + " is written; give each result a file of its own");
+             "is also the file of " + other.what + "; give each result its own file");
   }
   if (const std::string kept = output.is_kept || output.path == "-" ? "" : kept_under(output.path);
       !kept.empty())
-    refuse(output.what, output.path, "would take the place of " + kept + "; give another name");
+    refuse(output.what, output.path, "would replace " + kept + "; give another name");
 }
 
 void FileUse::check_folder(const Named& folder) const {
@@ -153,10 +153,10 @@ void FileUse::check_standard_output() const {
   struct stat facts {};
   if (::fstat(STDOUT_FILENO, &facts) != 0 || !S_ISREG(facts.st_mode)) return;
   const std::string identity = std::to_string(facts.st_dev) + ":" + std::to_string(facts.st_ino);
-  const std::string what = "is directed into ";
+  const std::string what = "is redirected into ";
   if (const auto input = inputs_.find(identity); input != inputs_.end())
     throw Error(ErrorCode::usage, "standard output",
-                what + input->second.what + " " + input->second.path + "; direct it elsewhere");
+                what + input->second.what + " " + input->second.path + "; redirect it elsewhere");
   for (const Named& output : outputs_)
     if (output.identity == identity)
       throw Error(ErrorCode::usage, "standard output",

@@ -12,7 +12,7 @@ void make_folder(const std::string& folder) {
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
     throw Error(ErrorCode::output, folder,
-                "cannot be made into a folder for the results; give another with -o");
+                "cannot be created as a folder for the results; give another with -o");
 }
 
 }  // namespace faultline

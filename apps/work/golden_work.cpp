@@ -72,7 +72,7 @@ std::vector<std::string> skip_label_tables(std::vector<std::string>& logs) {
   logs.erase(first, logs.end());
   if (logs.empty())
     throw Error(ErrorCode::usage, "faultline golden record",
-                "was given tables of labels only; name logs, too");
+                "was given only tables of labels; name logs as well");
   return skipped;
 }
 

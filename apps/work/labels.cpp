@@ -54,14 +54,15 @@ double number(const std::string& cell, const std::string& where) {
     used = 0;
   }
   if (used != cell.size() || std::isinf(value))
-    throw Error(ErrorCode::input, where, "\"" + cell + "\" is no number");
+    throw Error(ErrorCode::input, where, "\"" + cell + "\" is not a number");
   return value;
 }
 
 int joint_number(const std::string& cell, const std::string& where) {
   const double value = number(cell, where);
   if (!(value >= 0.0 && value <= 1000.0 && value == std::floor(value)))
-    throw Error(ErrorCode::input, where, "\"" + cell + "\" is no joint; joints count from 1, 0 is none");
+    throw Error(ErrorCode::input, where,
+                "\"" + cell + "\" is not a joint; joints count from 1, and 0 means no joint");
   return static_cast<int>(value);
 }
 

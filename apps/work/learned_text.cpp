@@ -49,12 +49,12 @@ std::string validation_text(const Validation& validation) {
     text += fmt::format("{} {:>10} {:>8}\n", counts_text(to_string(row.kind), row),
                         delay_text(row.median_delay_s), delay_text(row.p90_delay_s));
   text += counts_text("all", sum_of(validation.rows)) + "\n";
-  text +=
-      fmt::format("False alarms: {} in {:.2f} h of simulated healthy running; alarms before the onset: {}.\n",
-                  validation.false_alarms, validation.healthy_hours, validation.early_alarms);
+  text += fmt::format(
+      "False alarms: {} in {:.2f} h of simulated healthy operation; alarms before the onset: {}.\n",
+      validation.false_alarms, validation.healthy_hours, validation.early_alarms);
   if (std::isfinite(validation.confidence_error))
     text += fmt::format(
-        "Confidences are calibrated: {:.2f} from how often they are right in the mean ({:.2f} before).\n",
+        "Confidences are calibrated: on average {:.2f} from the share of right decisions ({:.2f} before).\n",
         validation.confidence_error, validation.raw_confidence_error);
   return text;
 }
@@ -85,8 +85,8 @@ std::string limits_text(const EvidenceLimits& limits, const std::vector<FaultLab
     last = label.kind;
   }
   return text +
-         ": three times what healthy logs give, each judged by the others, and more than simulated "
-         "healthy runs give.\n";
+         ": three times the evidence in healthy logs, each judged by a model of the others, and more than "
+         "in simulated healthy runs.\n";
 }
 
 std::string relation_name(const SignalRelation& relation) {
@@ -112,7 +112,8 @@ std::string relations_text(const Model& model) {
   for (const SignalRelation& relation : model.relations) {
     const int middle = static_cast<int>(relation.windows.size()) / 2;
     text += fmt::format(
-        "Joint {}: the {} explains {:.2f} % of logs left out; seen from {:.3g} {} over {:g} s on.\n",
+        "Joint {}: the {} explains {:.2f} % of held-out logs; a deviation is detected from {:.3g} {} over "
+        "{:g} s on.\n",
         relation.joint + 1, relation_name(relation), 100.0 * relation.r2, allowed_mean(relation, middle),
         unit_of(relation, model.robot.chain.geometry[relation.joint].kind),
         relation.windows[middle].window_s);
@@ -133,13 +134,15 @@ std::string parameter_text(const Identification& identification) {
 
 std::string mechanics_text(const Learned& learned) {
   if (!learned.model.has_mechanics())
-    return "\nThe logs have no torque: only whether each joint follows its reference is learned and judged.\n";
+    return "\nThe logs have no torque: only whether each joint follows its reference is learned and "
+           "judged.\n";
   return fmt::format("\nIdentified, with 95 % intervals ({}):\n{}", to_string(learned.identification.status),
                      parameter_text(learned.identification)) +
-         fmt::format("\nTested on simulated runs of the identified robot that nothing was trained on:\n{}",
-                     validation_text(learned.model.validation)) +
-         "\nThe smallest fault whose evidence passes its limit when it begins in the middle of a log like the healthy "
-         "ones, and how many of the simulated faults were found:\n" +
+         fmt::format(
+             "\nTested on simulated runs of the identified robot that were not used for training:\n{}",
+             validation_text(learned.model.validation)) +
+         "\nThe smallest fault whose evidence passes its limit when it begins in the middle of a log like "
+         "the healthy ones, and how many of the simulated faults were found:\n" +
          reach_table(learned.model) + limits_text(learned.model.explain.limits, learned.model.labels);
 }
 
@@ -149,7 +152,7 @@ std::string warnings_text(const Learned& learned) {
   for (const Issue& issue : learned.identification.issues.all())
     if (issue.severity != Severity::note) text += fmt::format("Warning: {}\n", issue.message);
   for (const std::string& doubt : learned.model.doubts) text += fmt::format("Doubtful: {}\n", doubt);
-  if (!learned.model.doubts.empty()) text += "Each diagnosis with this model says so.\n";
+  if (!learned.model.doubts.empty()) text += "Each diagnosis with this model reports this.\n";
   return text.empty() ? text : "\n" + text;
 }
 

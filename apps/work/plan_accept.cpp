@@ -23,7 +23,7 @@ std::string item_named(const std::string& given, const GoldenCheck& check) {
   if (stems.size() == 1) return stems.front();
   throw Error(ErrorCode::usage, given,
               fmt::format("{}; expected one of {}",
-                          stems.empty() ? "is no log of this golden folder" : "could be more than one log",
+                          stems.empty() ? "is not a log of this golden folder" : "matches more than one log",
                           fmt::join(names, ", ")));
 }
 

@@ -64,7 +64,7 @@ TEST_F(CaseProvenance, TheSameReportTwiceIsOneCase) {
   const std::string before = read_file(path_);
   const ProgramRun again = cases({"add", report_});
   EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_TRUE(has(again.err, "case 7 already") && has(again.err, "nothing was changed")) << again.err;
+  EXPECT_TRUE(has(again.err, "already case 7") && has(again.err, "nothing was changed")) << again.err;
   EXPECT_EQ(read_file(path_), before);
 }
 
@@ -73,7 +73,7 @@ TEST_F(CaseProvenance, WhatIsToldAnewOfAnEventIsKeptAndSaid) {
   const ProgramRun told =
       cases({"add", report_, "--fault", "stuck_encoder", "--joint", "2", "--by", "A. Weber"});
   EXPECT_EQ(told.status, 0);
-  EXPECT_TRUE(has(told.err, "case 7 already") && has(told.err, "now confirmed")) << told.err;
+  EXPECT_TRUE(has(told.err, "already case 7") && has(told.err, "now confirmed")) << told.err;
   const CaseBase base = read_case_base(path_);
   ASSERT_EQ(base.cases().size(), 7u);
   EXPECT_EQ(base.at(7).label.kind, FaultKind::stuck_encoder);

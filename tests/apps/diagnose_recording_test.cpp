@@ -151,7 +151,7 @@ TEST_F(DiagnoseRecording, WhatWasFoundIsToldWhenTheRecordingCannotBeWritten) {
 TEST_F(DiagnoseRecording, ItGoesToAFileThatIsNoInput) {
   const ProgramRun standard = diagnose(log_, {"--mcap", "-"});
   EXPECT_EQ(standard.status, 2);
-  EXPECT_NE(standard.err.find("give it a name"), std::string::npos) << standard.err;
+  EXPECT_NE(standard.err.find("give the name of a file"), std::string::npos) << standard.err;
   EXPECT_EQ(diagnose(log_, {"--mcap", model_}).status, 2);
   const ProgramRun nowhere = diagnose(log_, {"--mcap", folder_.file("none/out.mcap")});
   EXPECT_EQ(nowhere.status, 3);

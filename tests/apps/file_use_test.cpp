@@ -86,9 +86,10 @@ TEST_F(FileUseOfCommands, DiagnoseKeepsTheLogTheModelAndItsCases) {
   expect_refused(with({"--junit", "@m.cases.db-journal"}), {"--junit", "the case base's journal"});
   expect_refused(with({"--json", "@m.cases.db-wal"}), {"the case base's journal"});
   expect_refused(with({"--json", "@c.db", "--cases", "@c.db"}), {"the case base"});
-  expect_refused(with({"--json", "@new", "--csv", "@new"}), {"is where --json is written"});
-  expect_refused(with({"--json", "@link_to_nothing.json", "--html", "@not_yet.json"}), {"is where --json"});
-  expect_refused(with({"--json", "-", "--csv", "-"}), {"is where --json is written"});
+  expect_refused(with({"--json", "@new", "--csv", "@new"}), {"is also the file of --json"});
+  expect_refused(with({"--json", "@link_to_nothing.json", "--html", "@not_yet.json"}),
+                 {"is also the file of --json"});
+  expect_refused(with({"--json", "-", "--csv", "-"}), {"is also the file of --json"});
 }
 
 TEST_F(FileUseOfCommands, IdentifyKeepsItsInputs) {
@@ -99,7 +100,7 @@ TEST_F(FileUseOfCommands, IdentifyKeepsItsInputs) {
   };
   expect_refused(with({"@b.csv"}), {"-o", "the log", "b.csv"});
   expect_refused(with({"@robot.toml"}), {"-o", "the robot file"});
-  expect_refused(with({"@new", "--json", "@new"}), {"--json", "is where -o is written"});
+  expect_refused(with({"@new", "--json", "@new"}), {"--json", "is also the file of -o"});
   expect_refused(with({"@new", "--suggest", "@a.csv"}), {"--suggest", "the log"});
   expect_refused(with({"@new", "--html", "@pictures/a.svg", "--pictures", "@pictures"}), {"--pictures"});
 }
@@ -115,8 +116,8 @@ TEST_F(FileUseOfCommands, LearnKeepsItsInputs) {
   expect_refused(with({"-o", "@robot.toml"}), {"-o", "the robot file"});
   expect_refused(with({"-o", "@labels.csv"}), {"-o", "the labels"});
   expect_refused(with({"-o", "@new", "--cases", "@a.csv"}), {"--cases", "the log"});
-  expect_refused(with({"-o", "@new", "--cases", "@new"}), {"--cases", "is where -o is written"});
-  expect_refused(with({"-o", "@new", "--json", "@new.cases.db"}), {"--json", "is where --cases is written"});
+  expect_refused(with({"-o", "@new", "--cases", "@new"}), {"--cases", "is also the file of -o"});
+  expect_refused(with({"-o", "@new", "--json", "@new.cases.db"}), {"--json", "is also the file of --cases"});
   expect_refused(with({"-o", "@new", "--json", "@new.cases.db-journal"}), {"--json", "--cases"});
 }
 
@@ -134,7 +135,7 @@ TEST_F(FileUseOfCommands, BatchKeepsItsInputsAndItsOwnResults) {
   };
   expect_refused(batch("@m"), {"--json", "the model"});
   expect_refused(batch("@runs/a.csv"), {"--json", "the log"});
-  expect_refused(batch("@out/index.csv"), {"--json", "is where -o is written"});
+  expect_refused(batch("@out/index.csv"), {"--json", "is also the file of -o"});
   expect_refused(batch("@out/logs/a.json"), {"--json", "lies among the files that -o writes"});
   expect_refused({"batch", "merge", "@out", "-o", "@out"}, {"-o", "the results of a shard"});
   expect_refused({"batch", "merge", "@out", "-o", "@all", "--json", "@out/summary.json"},
@@ -188,7 +189,7 @@ TEST_F(FileUseOfCommands, NoCommandOverwritesWhatAModelABatchOrGoldenLogsKeep) {
   for (const char* kept : {"made/golden.toml", "made/model-01234567.json", "made/cases-01234567.db",
                            "made/cases-01234567.db-wal", "out/.batch/finished.json", "new.cases.db"}) {
     if (std::string(kept) != "new.cases.db") folder_.write(kept, "x");
-    expect_refused({"convert", "@a.csv", std::string("@") + kept}, {"would take the place of"});
+    expect_refused({"convert", "@a.csv", std::string("@") + kept}, {"would replace"});
   }
 }
 

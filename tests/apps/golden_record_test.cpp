@@ -105,7 +105,7 @@ TEST_F(GoldenRecord, TablesOfLabelsAmongTheLogsAreSkipped) {
   write_file(labels, "file,fault,joint,onset_s\nlocked_1.csv,locked,1,8.44\n");
   const ProgramRun run = record(made_, {golden_.path() + "/logs/locked_1.csv", labels});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(has(run.out, "labels.csv is a table of labels, no log; it is skipped")) << run.out;
+  EXPECT_TRUE(has(run.out, "labels.csv is a table of labels, not a log; it is skipped")) << run.out;
   EXPECT_EQ(record(golden_.outside("none"), {labels}).status, 2);
 }
 

@@ -7,7 +7,7 @@ from .errors import UsageError
 
 PathLike = Union[str, "os.PathLike[str]"]
 Progress = Optional[Callable[[str, float], object]]
-"""Told what is being done and the share done, 0 to 1; what it raises ends the work."""
+"""Receives what is being done and the share done, 0 to 1; an exception from it ends the work."""
 
 
 def path_of(path: Optional[PathLike]) -> str:

@@ -42,7 +42,9 @@ def _models_of(
     if not isinstance(model, Mapping):
         model = {"": model}
     elif cases is not None and len(model) > 1:
-        raise UsageError(f"cases={cases}", "is for a batch of one model; of several, each has its own")
+        raise UsageError(
+            f"cases={cases}", "applies to a batch with one model; of several models, each uses its own"
+        )
     handles = []
     for folder, given in model.items():
         loaded = given if isinstance(given, Model) else Model(given, cases=cases)

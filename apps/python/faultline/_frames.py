@@ -96,7 +96,9 @@ def _array_of(name: str, values: Any) -> Tuple[Optional[Any], str]:
         values = _pandas_values(values)
     array = _unmasked(values) if isinstance(values, numpy.ma.MaskedArray) else numpy.asarray(values)
     if array.ndim != 1:
-        raise InputError(f"column {name}", f"has {array.ndim} dimensions; give one array of numbers a column")
+        raise InputError(
+            f"column {name}", f"has {array.ndim} dimensions; give one array of numbers per column"
+        )
     if array.dtype.kind in "mM":
         return _seconds(array), "s"
     if array.dtype.kind == "c":
@@ -127,12 +129,12 @@ def _index_of(frame: Any) -> List[Tuple[str, Any]]:
 def _told_units(units: Any, names: List[str]) -> Dict[str, str]:
     """The units by name of a column, checked."""
     if not isinstance(units, MappingType):
-        raise UsageError("units", f'{units!r} is no dict of units by column, such as {{"q1": "deg"}}')
+        raise UsageError("units", f'{units!r} is not a dict of units by column, such as {{"q1": "deg"}}')
     for name, unit in units.items():
         if str(name) not in names:
-            raise UsageError("units", f'"{name}" is no column; there are {", ".join(names)}')
+            raise UsageError("units", f'"{name}" is not a column; there are {", ".join(names)}')
         if not isinstance(unit, str):
-            raise UsageError(f"units, {name}", f'{unit!r} is no unit; give its symbol, such as "deg"')
+            raise UsageError(f"units, {name}", f'{unit!r} is not a unit; give its symbol, such as "deg"')
     return {str(name): unit for name, unit in units.items()}
 
 
@@ -144,11 +146,11 @@ def columns_of(value: Any, units: Any) -> Columns:
     else:
         columns = [(str(name), values) for name, values in value.items()]
     if not columns:
-        raise InputError("the log", "has no column; a log has a time and a position at least")
+        raise InputError("the log", "has no column; a log needs at least a time and a position")
     names = [name for name, _ in columns]
     if len(set(names)) != len(names):
         twice = next(name for name in names if names.count(name) > 1)
-        raise InputError(f"column {twice}", "is there twice; give each column a name of its own")
+        raise InputError(f"column {twice}", "appears twice; give each column its own name")
     given = _told_units(units, names)
     arrays, told = zip(*(_array_of(name, values) for name, values in columns))
     return Columns(names, [given.get(name, unit) for name, unit in zip(names, told)], list(arrays))

@@ -39,5 +39,6 @@ class Inspection(Result):
 
 
 def inspect(log: LogLike, *, robot: Optional[PathLike] = None, progress: Progress = None) -> Inspection:
-    """Tells what is in a log and what is wrong with it. `robot` is a robot file that says what columns are."""
+    """Reports what a log contains and what is wrong with it. `robot` is a robot file that defines the
+    columns."""
     return Inspection(_faultline.inspect(log_of(log)._handle, path_of(robot), progress))

@@ -22,7 +22,7 @@ class KeptReports(NamedTuple):
 
     def text(self, width: int, unicode: bool, color: bool) -> str:
         if (width, unicode, color) != (WIDTH, UNICODE, COLOR):
-            raise UsageError("text", "of a diagnosis that was pickled is there without other arguments only")
+            raise UsageError("text", "of a pickled diagnosis is available only without other arguments")
         return self.report
 
     def render(self, format: str, progress: Any) -> str:

@@ -23,7 +23,7 @@ def _label(name: str, given: Any) -> Label:
         and isinstance(given[2], numbers.Real)
     )
     if not is_label:
-        raise UsageError(f"labels, {name}", f"{given!r} is no label; {WHAT_IT_IS}")
+        raise UsageError(f"labels, {name}", f"{given!r} is not a label; {WHAT_IT_IS}")
     return given[0], int(given[1]), float(given[2])
 
 
@@ -36,5 +36,5 @@ def labels_for(labels: Mapping[Any, Any], logs: List[Any]) -> Dict[str, Label]:
         name = os.fsdecode(key) if isinstance(key, (str, bytes, os.PathLike)) else str(key)
         found[name] = _label(name, given)
         if os.path.basename(name) not in names:
-            raise UsageError(f"labels, {name}", f"is none of the logs, which are: {', '.join(names)}")
+            raise UsageError(f"labels, {name}", f"is not one of the logs, which are: {', '.join(names)}")
     return found

@@ -18,12 +18,12 @@ LogLike = Union[PathLike, Mapping[str, Any], "Log", Any]
 
 class Log:
     """A log: a file, a mapping of column names to arrays, or a pandas DataFrame. Columns are found as in
-    files: t, q1.., dq1.., tau1.. or what a robot file's [log] says.
+    files: t, q1.., dq1.., tau1.. or what a robot file's [log] defines.
 
     Columns of contiguous float64 are read where they are and must not change while they are read; others are
     copied. `then` are files in which the log goes on, `join` files with more columns of it (`join_by` auto,
-    row or time), `run` reads one run only of a log in which the clock restarts (from 1; 0: all). `units` says in what columns in
-    memory are, such as {"q1": "deg"}; `name` is what reports call them.
+    row or time), `run` reads one run only of a log in which the clock restarts (from 1; 0: all). `units`
+    gives the units of columns in memory, such as {"q1": "deg"}; `name` is what reports call them.
     """
 
     def __init__(
@@ -50,11 +50,11 @@ class Log:
             self._handle = _faultline.Log(*self._parts)
             return
         if list(then) or list(join):
-            raise UsageError("Log", "then and join are for files; put columns in memory together before")
+            raise UsageError("Log", "then and join are for files; combine columns in memory first")
         if not is_frame(source) and not isinstance(source, MappingType):
             raise UsageError(
                 "Log",
-                f"{type(source).__name__} is no log; give a path, a dict of arrays, a DataFrame or a Log",
+                f"{type(source).__name__} is not a log; give a path, a dict of arrays, a DataFrame or a Log",
             )
         columns = columns_of(source, {} if units is None else units)
         self._handle = _faultline.Log.of_columns(name or NAME_IN_MEMORY, *columns, run)
@@ -84,8 +84,8 @@ class Log:
         self, *, robot: Optional[PathLike] = None, extra: bool = True, progress: Progress = None
     ) -> Dict[str, Any]:
         """The channels in SI units as NumPy arrays by name: t, q1.., dq1.., tau1..; `robot` is a robot file
-        that says what columns mean; `extra` keeps columns without a meaning, too. Rows without a usable time
-        are left out."""
+        that defines what columns mean; `extra` keeps columns without a meaning, too. Rows without a usable
+        time are left out."""
         return self._handle.read(path_of(robot), extra, progress)[0]
 
     def to_dataframe(

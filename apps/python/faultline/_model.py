@@ -72,7 +72,7 @@ class Model:
         handle = self._loaded
         if not handle.path:
             raise UsageError(
-                "Model", "is in memory only and cannot be sent to another process; save it before"
+                "Model", "is in memory only and cannot be sent to another process; save it first"
             )
         return _unpickled, (Sent(handle.path, handle.own_cases, handle.sha256, handle.cases_sha256),)
 
@@ -114,7 +114,7 @@ class Model:
 
     @property
     def has_mechanics(self) -> bool:
-        """False for a model of logs without torque: it knows how joints follow their references."""
+        """False for a model of logs without torque: it describes how joints follow their references."""
         return self._handle.has_mechanics
 
     def diagnose(
@@ -151,7 +151,7 @@ class Model:
         else:
             path, cases = self._handle.path, self._handle.own_cases
         if not path:
-            raise UsageError("Model", "is in memory only, there is no file to read again; save it before")
+            raise UsageError("Model", "is in memory only and has no file to read again; save it first")
         self._loaded = _faultline.Model(path, cases)
 
     @property
@@ -189,7 +189,7 @@ def files_of(model: Union[Model, PathLike, None], cases: Optional[PathLike], wha
     if not isinstance(model, Model):
         return path_of(model), path_of(cases)
     if not model.path:
-        raise UsageError(what, "needs a model that is written to a file; save it before")
+        raise UsageError(what, "needs a model that is written to a file; save it first")
     return model.path, path_of(cases) or model._handle.own_cases
 
 

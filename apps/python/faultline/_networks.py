@@ -36,5 +36,5 @@ def outputs_of(handle: Any, network: str, inputs: Mapping[str, Any]) -> Any:
         try:
             arrays.append(numpy.ascontiguousarray(inputs[name], dtype="float64"))
         except (TypeError, ValueError) as error:
-            raise UsageError(name, f"is no matrix of numbers ({error})") from error
+            raise UsageError(name, f"is not a matrix of numbers ({error})") from error
     return _faultline.network_outputs(handle, network, arrays)

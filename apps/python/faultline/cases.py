@@ -19,7 +19,7 @@ ModelLike = Union[Model, PathLike, None]
 
 class Case(Record):
     """A case; attributes are the members of its JSON: id, label (kind, joint), outcome, what_was_done ...
-    `note` says what was not to be expected, or ""."""
+    `note` reports an unexpected effect, or ""."""
 
     id: int
 
@@ -110,7 +110,7 @@ def confirm(
     by: Optional[str] = None,
     date: Optional[str] = None,
 ) -> Case:
-    """Says that a case was decided right, or with `fault` what it was."""
+    """Confirms that the decision of a case was right, or corrects it to `fault`."""
     return _case(_act("confirm", model, cases, id=id, fault=fault, joint=joint, done=done, by=by, date=date))
 
 
@@ -125,7 +125,7 @@ def reject(
     by: Optional[str] = None,
     date: Optional[str] = None,
 ) -> Case:
-    """Says that a case was decided wrong, with `fault` what it was."""
+    """Records that the decision of a case was wrong, with `fault` as the actual one."""
     return _case(_act("reject", model, cases, id=id, fault=fault, joint=joint, done=done, by=by, date=date))
 
 

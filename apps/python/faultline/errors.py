@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What faultline raises: the sentences of the program, as exceptions."""
+"""Exceptions of faultline, with the messages of the program."""
 from typing import Any, ClassVar, Optional, Tuple
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Golden logs: record what is expected of logs, and check that it stays so."""
+"""Golden logs: record the expected results for logs, and check them again later."""
 from typing import Any, Iterable, List, Optional, Union
 
 from . import _faultline
@@ -18,8 +18,8 @@ class Recorded(Result):
 
 
 class Check(Result):
-    """What a golden folder says now against what is expected; attributes are the members of the JSON (schema
-    faultline/golden-check/1): `result` (same, different or damaged), `items` ..."""
+    """The current results of a golden folder against the expected ones; attributes are the members of the
+    JSON (schema faultline/golden-check/1): `result` (same, different or damaged), `items` ..."""
 
     result: str
     items: List[Record]
@@ -34,7 +34,7 @@ class Check(Result):
 
 
 class Accepted(Record):
-    """What was accepted: `accepted`, and `left`, in which something else is found than expected."""
+    """What was accepted: `accepted`; and `left`, in which the findings differ from the expected ones."""
 
     accepted: List[str]
     left: List[str]
@@ -51,7 +51,7 @@ def record(
     threads: int = 0,
     progress: Progress = None,
 ) -> Recorded:
-    """Makes a golden folder: logs, model and what faultline says now. `model` is a Model that has a file, or
+    """Makes a golden folder: logs, model and their current results. `model` is a Model that has a file, or
     the path of one."""
     its_path, its_cases = files_of(model, cases, "golden.record")
     return Recorded(
@@ -96,8 +96,8 @@ def accept(
     threads: int = 0,
     progress: Progress = None,
 ) -> Accepted:
-    """Makes what differs what is expected: of the named logs, of all, or of those that differ in numbers and
-    reasons only."""
+    """Makes different results the expected ones: of the named logs, of all, or of those that differ in
+    numbers and reasons only."""
     chosen = [names] if isinstance(names, str) else list(names)
     its_path, its_cases = files_of(model, cases, "golden.accept")
     accepted, left = _faultline.golden_accept(

@@ -208,7 +208,8 @@ TEST(Suggestion, CountersTemperaturesAndCurrentsAreNoPositions) {
     const std::string log = folder.write("run.csv", log_without_positions(time, false));
     const ProgramRun run = run_program({"inspect", log, "--suggest", "-"});
     EXPECT_EQ(run.status, 3) << run.out;
-    EXPECT_NE(run.err.find("no column could be told to be a joint's position"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("no column could be identified as a joint's position"), std::string::npos)
+        << run.err;
   }
 }
 

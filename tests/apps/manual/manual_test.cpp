@@ -27,7 +27,7 @@ TEST(Manual, UnknownCommandsAndOptionsAreAnsweredWithTheNearest) {
   EXPECT_NE(said({"--color", "never", "golden", "chek", "g"}).find("faultline golden check?"),
             std::string::npos);
   EXPECT_NE(said({"diagnose", "--jsn", "x", "l"}).find("did you mean --json?"), std::string::npos);
-  EXPECT_EQ(said({"cases", "add", "r.json", "--joint", "-1", "--model", "m"}).find("no option"),
+  EXPECT_EQ(said({"cases", "add", "r.json", "--joint", "-1", "--model", "m"}).find("not an option"),
             std::string::npos);
   EXPECT_NE(said({"diagnose", "-dash.csv", "--model", "m"}).find("./-dash.csv"), std::string::npos);
   EXPECT_NE(said({"zzz"}).find("there are inspect, convert"), std::string::npos);

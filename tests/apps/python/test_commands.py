@@ -114,7 +114,7 @@ class GoldenLogs(InFolder):
         self.assertEqual((left.accepted, left.left), ([], ["locked_1.csv"]))
         self.assertEqual(faultline.golden.accept(folder, ["locked_1"]).accepted, ["locked_1.csv"])
         self.assertEqual(faultline.golden.check(folder).result, "same")
-        with self.assertRaisesRegex(faultline.UsageError, "one of them"):
+        with self.assertRaisesRegex(faultline.UsageError, "exactly one of"):
             faultline.golden.accept(folder)
 
 

@@ -128,9 +128,9 @@ class Frames(InFolder):
     def test_units_name_columns_that_are_there(self):
         frame = pandas.DataFrame({"q1": [0.0, 1.0], 7: [0.0, 1.0]}, index=pandas.Index([0.0, 1.0], name="t"))
         for units, words in [
-            ({"q9": "deg"}, 'units: "q9" is no column; there are t, q1, 7$'),
-            ({"q1": 7}, 'units, q1: 7 is no unit; give its symbol, such as "deg"'),
-            (["q1"], r"units: \['q1'\] is no dict of units by column"),
+            ({"q9": "deg"}, 'units: "q9" is not a column; there are t, q1, 7$'),
+            ({"q1": 7}, 'units, q1: 7 is not a unit; give its symbol, such as "deg"'),
+            (["q1"], r"units: \['q1'\] is not a dict of units by column"),
         ]:
             with self.assertRaisesRegex(faultline.UsageError, words):
                 faultline.Log(frame, units=units)
@@ -175,16 +175,16 @@ class Frames(InFolder):
 
     def test_what_is_no_log_is_refused_in_words(self):
         for value, kind, words in [
-            ({"t": [0, 1], "q1": [0.0]}, faultline.InputError, "has 1 values, the columns before it have 2"),
+            ({"t": [0, 1], "q1": [0.0]}, faultline.InputError, "has 1 values, but the columns before it"),
             ({"q1": [0.0, 1.0]}, faultline.InputError, "time"),
             ({"t": ["a", "b"], "q1": ["c", "d"]}, faultline.InputError, "no column of numbers"),
             ({"t": numpy.zeros((2, 2))}, faultline.InputError, "has 2 dimensions"),
             ({"t": numpy.zeros(2, dtype=complex)}, faultline.InputError, "complex"),
             ({}, faultline.InputError, "has no column"),
-            (17, faultline.UsageError, "int is no log"),
+            (17, faultline.UsageError, "int is not a log"),
         ]:
             with self.assertRaisesRegex(kind, words):
                 self.model.diagnose(value)
         twice = pandas.DataFrame([[0.0, 0.0]], columns=["t", "t"])
-        with self.assertRaisesRegex(faultline.InputError, "is there twice"):
+        with self.assertRaisesRegex(faultline.InputError, "appears twice"):
             faultline.Log(twice)

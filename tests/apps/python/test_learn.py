@@ -61,7 +61,7 @@ class Learning(InFolder):
             lambda: faultline.batch(BENCH, model, self.folder / "batch"),
             lambda: faultline.golden.record(HEALTHY, model, self.folder / "golden"),
         ):
-            with self.assertRaisesRegex(faultline.UsageError, "save it before"):
+            with self.assertRaisesRegex(faultline.UsageError, "save it first"):
                 call()
         model.save(path)
         self.assertEqual((model.path, model.name), (str(path), "bench"))
@@ -75,7 +75,7 @@ class Labels(InFolder):
         for label in (1, "locked", ("none", None, None), ("locked", 1), ("locked", 1.5, 2.0), (None, 1, 2.0)):
             with self.assertRaisesRegex(
                 faultline.UsageError,
-                r'labels, healthy_1.csv: .* is no label; a label is \(fault, joint, onset_s\), such as \("locked"',
+                r'labels, healthy_1.csv: .* is not a label; a label is \(fault, joint, onset_s\), such as',
             ):
                 faultline.learn(HEALTHY, ROBOT, labels={"healthy_1.csv": label})
         with self.assertRaisesRegex(faultline.UsageError, '"lokced" is not a fault name; expected one of'):
@@ -83,7 +83,7 @@ class Labels(InFolder):
 
     def test_a_label_of_a_log_that_is_not_there_is_refused(self):
         with self.assertRaisesRegex(
-            faultline.UsageError, "labels, healthy_9.csv: is none of the logs, which are: healthy_1.csv, "
+            faultline.UsageError, "labels, healthy_9.csv: is not one of the logs, which are: healthy_1.csv, "
         ):
             faultline.learn(HEALTHY, ROBOT, labels={"healthy_9.csv": ("locked", 1, 2.0)})
         frames = [columns(log) for log in HEALTHY]

@@ -67,20 +67,21 @@ class Networks(InFolder):
         model = faultline.load_model(path, cases=CASES)
         collected = len(self.members["judges"]["mlp"]["layers"][0]["weights"][0])
         for use in (lambda: model.networks, lambda: model.to_onnx(self.folder / "nets")):
-            with self.assertRaisesRegex(faultline.InputError,
-                                        f"take {collected - 1} features, this program collects {collected}"):
+            with self.assertRaisesRegex(
+                faultline.InputError, f"take {collected - 1} features, but this program collects {collected}"
+            ):
                 use()
         self.assertFalse((self.folder / "nets").exists())
 
     def test_inputs_that_do_not_fit_are_told(self):
         three = numpy.zeros((5, 3))
         for network, inputs, words in [
-            ("mlp", {}, '"mlp" is none of this model\'s, which are: residual_mlp, evidence_mlp'),
+            ("mlp", {}, '"mlp" is not a network of this model; its networks are: residual_mlp, evidence_mlp'),
             ("sample_mlp", {"torque": three}, "takes torque_residual, torque, but was given torque"),
-            ("sample_mlp", {"torque": three, "torque_residual": three[:, :2]}, "no matrix of 3 columns"),
-            ("sample_mlp", {"torque": three, "torque_residual": three[0]}, "no matrix of 3 columns"),
+            ("sample_mlp", {"torque": three, "torque_residual": three[:, :2]}, "not a matrix of 3 columns"),
+            ("sample_mlp", {"torque": three, "torque_residual": three[0]}, "not a matrix of 3 columns"),
             ("sample_mlp", {"torque": three, "torque_residual": three[:4]}, "the same number of rows"),
-            ("sample_mlp", {"torque": three, "torque_residual": "x"}, "is no matrix of numbers"),
+            ("sample_mlp", {"torque": three, "torque_residual": "x"}, "is not a matrix of numbers"),
         ]:
             with self.assertRaisesRegex(faultline.UsageError, words):
                 self.model.network_outputs(network, inputs)

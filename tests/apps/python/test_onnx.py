@@ -216,7 +216,7 @@ class Refusals(InFolder):
         file.write_text("a file")
         for folder in (file, file / "below"):
             with self.assertRaisesRegex(
-                faultline.OutputError, f"^{folder}: cannot be made into a folder for the results"
+                faultline.OutputError, f"^{folder}: cannot be created as a folder for the results"
             ):
                 self.model.to_onnx(folder)
         self.assertEqual(file.read_text(), "a file")

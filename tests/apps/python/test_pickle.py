@@ -76,7 +76,7 @@ class Pickles(InFolder):
         for refused, words in [
             (kept.to_html, "to_html: a pickle holds neither the log nor the model; make the page where"),
             (kept.curves, "curves: a pickle holds neither the log nor the model; take them where"),
-            (lambda: kept.text(width=100), "text: of a diagnosis that was pickled"),
+            (lambda: kept.text(width=100), "text: of a pickled diagnosis"),
         ]:
             with self.assertRaisesRegex(faultline.UsageError, words):
                 refused()
