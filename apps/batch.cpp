@@ -34,7 +34,8 @@ std::function<void(const BatchProgress&)> progress_to(ProgressBar& bar) {
     const double rate = at.diagnosed / std::max(elapsed, 1e-3);
     std::string text = fmt::format("{} of {} logs", at.done, at.logs);
     if (at.diagnosed > 0)
-      text += fmt::format(", {:.3g} a second, {} left", rate, duration_text((at.logs - at.done) / rate));
+      text +=
+          fmt::format(", {:.3g} per second, {} remaining", rate, duration_text((at.logs - at.done) / rate));
     show(text, static_cast<double>(at.done) / at.logs);
   };
 }

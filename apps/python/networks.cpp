@@ -181,9 +181,9 @@ void bind_networks(py::module_& module) {
   module.def("network_layouts", &layouts_json, py::arg("model"),
              "Names, inputs and outputs of the networks of a model, as JSON.");
   module.def("network_outputs", &outputs_of, py::arg("model"), py::arg("network"), py::arg("inputs"),
-             "What a network gives for its inputs.");
+             "The output of a network for its inputs.");
   module.def("network_inputs", &inputs_in, py::arg("model"), py::arg("network"), py::arg("log"),
-             py::arg("progress"), "What a network is given for a log.");
+             py::arg("progress"), "The inputs of a network for a log.");
   module.def("write_networks", &write_networks, py::arg("model"), py::arg("folder"), py::arg("files"),
              "Writes files into a folder, all or none of each.");
 }

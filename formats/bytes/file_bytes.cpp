@@ -46,7 +46,7 @@ void FileBytes::open() {
   if (::fstat(file_, &facts) != 0) return;
   if (S_ISDIR(facts.st_mode)) {
     close();
-    fail_file(path_, "is a directory, a log file was expected");
+    fail_file(path_, "is a directory, but a log file is expected");
   }
   regular_ = S_ISREG(facts.st_mode);
   stamp_ = {facts.st_dev, facts.st_ino, facts.st_size};

@@ -13,7 +13,7 @@ from .errors import UsageError
 
 class BatchResult(Result):
     """A finished batch; attributes are the members of its summary.json. `diagnosed` is the number of logs
-    that were diagnosed by this call, the others were done before."""
+    that this call diagnosed; the others were diagnosed before."""
 
     def __init__(self, answer: Any, folder: str) -> None:
         super().__init__(answer[0])
@@ -27,7 +27,7 @@ class BatchResult(Result):
 
     @property
     def rows(self) -> List[Record]:
-        """A row each log, as in index.ndjson."""
+        """One row per log, as in index.ndjson."""
         index = pathlib.Path(self.folder) / "index.ndjson"
         return [Record(json.loads(line)) for line in index.read_text("utf-8").splitlines() if line]
 
@@ -66,9 +66,9 @@ def batch(
     wait: bool = False,
     progress: Progress = None,
 ) -> BatchResult:
-    """Diagnoses every log below the paths into the folder `output`, with an index; an earlier run there goes
-    on. `model` may be a dict of models by the folder whose logs each is for, "" for all other logs. The
-    options are those of `faultline batch`."""
+    """Diagnoses every log below the paths into the folder `output`, with an index; an earlier run there is
+    continued. `model` may be a dict of models by the folder whose logs each is for, "" for all other logs.
+    The options are those of `faultline batch`."""
     folder = path_of(output)
     found = paths_of(paths, "batch")
     answer = _faultline.batch(

@@ -35,9 +35,9 @@ class Fault(Record):
 
 class Curves:
     """The course of a run in bins, as NumPy arrays by name: `whole`, and `faults`, a stretch around each of
-    the first faults. Signals (t, q1, q1_predicted, dq1, tau1, tau1_required ...) have two values a bin, its
-    extremes; residuals (t_residual, residual1 ...) one, the largest in the bin, where `healthy_residual` is
-    the largest of each joint in healthy logs."""
+    the first faults. Signals (t, q1, q1_predicted, dq1, tau1, tau1_required ...) have two values per bin, its
+    extremes; residuals (t_residual, residual1 ...) one, the largest in the bin; `healthy_residual` is the
+    largest of each joint in healthy logs."""
 
     def __init__(self, found: Dict[str, Any]) -> None:
         self.whole: Dict[str, Any] = found["whole"]
@@ -92,11 +92,11 @@ class Diagnosis(Result):
         return self._made.render("html", progress)
 
     def to_csv(self) -> str:
-        """One row a fault."""
+        """One row per fault, as CSV."""
         return self._made.render("csv", None)
 
     def to_markdown(self) -> str:
-        """For an issue tracker."""
+        """Markdown for an issue tracker."""
         return self._made.render("md", None)
 
     def to_junit(self) -> str:
@@ -104,7 +104,7 @@ class Diagnosis(Result):
         return self._made.render("junit", None)
 
     def to_dataframe(self) -> Any:
-        """The faults as a pandas DataFrame, a row each."""
+        """The faults as a pandas DataFrame, one row per fault."""
         return frame_of(
             [{k: v for k, v in fault.to_dict().items() if k not in NO_NESTED} for fault in self.faults]
         )
@@ -130,7 +130,7 @@ def diagnose(
     progress: Progress = None,
 ) -> Diagnosis:
     """Finds the faults in one log. `model` is a Model, or the path of one with its case base `cases` (beside
-    it by default). `classify` is evidence or samples (the paper's way, with `criterion` log_odds or
+    it by default). `classify` is evidence or samples (the method of the paper, with `criterion` log_odds or
     consecutive and `g`)."""
     from ._model import Model
 

@@ -115,7 +115,7 @@ def _array_of(name: str, values: Any) -> Tuple[Optional[Any], str]:
 
 
 def _index_of(frame: Any) -> List[Tuple[str, Any]]:
-    """The index, where it is named or tells times."""
+    """The index, if it is named or holds times."""
     index = frame.index
     if getattr(index, "nlevels", 1) != 1:
         return []

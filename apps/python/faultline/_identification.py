@@ -31,7 +31,7 @@ class Identification(Result):
         return self._made.html()
 
     def to_dataframe(self) -> Any:
-        """The base parameters as a pandas DataFrame, a row each."""
+        """The base parameters as a pandas DataFrame, one row per parameter."""
         return frame_of([parameter.to_dict() for parameter in self.base_parameters])
 
     def robot_text(self, *, urdf: bool = False) -> str:
@@ -51,8 +51,8 @@ def identify(
     progress: Progress = None,
 ) -> Identification:
     """Identifies a robot's parameters from logs of healthy runs. With `output` the identified robot is
-    written there, as URDF for .urdf. `method` is automatic, weak_form or output_error. `force` takes logs
-    whose numbers are hardly in their units, too."""
+    written there, as URDF for .urdf. `method` is automatic, weak_form or output_error. `force` also takes
+    logs whose numbers are implausible in their units."""
     return Identification(
         _faultline.identify(
             handles_of(logs), path_of(robot), path_of(output), method, keep_all, force, threads, progress

@@ -10,7 +10,7 @@ from ._record import Record, Result, frame_of
 
 
 class Inspection(Result):
-    """What a log holds; attributes are those of its entry in the JSON (schema faultline/inspection/1):
+    """The contents of a log; attributes are those of its entry in the JSON (schema faultline/inspection/1):
     verdict, joint_log, joints, rows, channels, issues, lacking, analyses ..."""
 
     verdict: str
@@ -34,7 +34,7 @@ class Inspection(Result):
         return self._made.html()
 
     def to_dataframe(self) -> Any:
-        """The channels as a pandas DataFrame, a row each."""
+        """The channels as a pandas DataFrame, one row per channel."""
         return frame_of([channel.to_dict() for channel in self.channels])
 
 

@@ -21,9 +21,9 @@ class Log:
     files: t, q1.., dq1.., tau1.. or what a robot file's [log] defines.
 
     Columns of contiguous float64 are read where they are and must not change while they are read; others are
-    copied. `then` are files in which the log goes on, `join` files with more columns of it (`join_by` auto,
+    copied. `then` are files that continue the log, `join` files with more columns of it (`join_by` auto,
     row or time), `run` reads one run only of a log in which the clock restarts (from 1; 0: all). `units`
-    gives the units of columns in memory, such as {"q1": "deg"}; `name` is what reports call them.
+    gives the units of columns in memory, such as {"q1": "deg"}; reports call them `name`.
     """
 
     def __init__(
@@ -77,7 +77,7 @@ class Log:
 
     @property
     def columns(self) -> List[str]:
-        """Names of the columns, as the log calls them."""
+        """Names of the columns in the log."""
         return self._handle.columns()
 
     def to_dict(

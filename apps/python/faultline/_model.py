@@ -25,7 +25,7 @@ class Sent(NamedTuple):
 
 
 def _read(sent: Sent) -> _faultline.Model:
-    """Raises InputError when the files are others than those that were sent."""
+    """Raises InputError if the files differ from those that were sent."""
     handle = _faultline.Model(sent.path, sent.cases)
     for file, found, expected in [
         (handle.path, handle.sha256, sent.sha256),
@@ -138,8 +138,8 @@ class Model:
         return self._handle.json()
 
     def save(self, path: PathLike, *, cases: Optional[PathLike] = None) -> None:
-        """Writes model and case base. Cases that people put into a base that is there are carried over. A
-        model that was in memory only is from then on the one that was written."""
+        """Writes model and case base. Cases that people put into an existing case base are carried over. A
+        model that was in memory only is from then on bound to these files."""
         self._handle.save(path_of(path), path_of(cases))
         if not self.path:
             self._loaded = _faultline.Model(path_of(path), path_of(cases))
@@ -160,20 +160,20 @@ class Model:
         return [layout["name"] for layout in _onnx.layouts_of(self._handle)]
 
     def network_inputs(self, network: str, log: LogLike, *, progress: Progress = None) -> Dict[str, Any]:
-        """What a network is given for a log, as NumPy matrices by name of the input: a row a prediction for
-        residual_mlp, a sample for sample_mlp and sample_rbfn, an episode that was found for evidence_mlp and
-        evidence_rbfn. SI units; NaN where something is missing."""
+        """The inputs of a network for a log, as NumPy matrices by name of the input, with one row per
+        prediction for residual_mlp, per sample for sample_mlp and sample_rbfn, and per episode for
+        evidence_mlp and evidence_rbfn. SI units; NaN where something is missing."""
         return _networks.inputs_in(self._handle, network, log, progress)
 
     def network_outputs(self, network: str, inputs: Mapping[str, Any]) -> Any:
-        """What a network gives for matrices of its inputs by name, as a NumPy matrix with as many rows."""
+        """The output of a network for matrices of its inputs by name, as a NumPy matrix with as many rows."""
         return _networks.outputs_of(self._handle, network, inputs)
 
     def to_onnx(self, folder: PathLike) -> List[OnnxFile]:
         """Writes each of its networks as an ONNX file (opset 15, float64) into the folder, which is made, and
-        tells what was written. The scaling of inputs and outputs is in the graphs: they take and give what
-        network_inputs() and network_outputs() do. The same model gives the same bytes. Needs
-        python3-onnx."""
+        returns what was written. The graphs contain the scaling of inputs and outputs: they take what
+        network_inputs() returns and give what network_outputs() returns. The same model
+        gives the same bytes. Needs python3-onnx."""
         return _onnx.export(self._handle, path_of(folder))
 
     def __repr__(self) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The networks of a model on arrays: what they are given for a log, and what they give."""
+"""The networks of a model on arrays: their inputs for a log, and their outputs."""
 from typing import Any, Dict, Mapping
 
 from . import _faultline

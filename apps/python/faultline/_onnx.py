@@ -127,7 +127,7 @@ def _file_of(layout: Members, model: Members, sha256: str) -> bytes:
 
 
 def export(handle: Any, folder: str) -> List[OnnxFile]:
-    """Writes one file a network."""
+    """Writes one file per network."""
     layouts = layouts_of(handle)
     if not layouts:
         raise InputError(

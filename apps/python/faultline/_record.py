@@ -8,7 +8,7 @@ from .errors import UsageError
 
 class Record:
     """A JSON object as attributes: record.verdict, record["verdict"]. Objects inside are Records, lists are
-    lists; a number that is not known is None. Nothing changes it."""
+    lists; a missing number is None. It cannot be changed."""
 
     _parts: ClassVar[Mapping[str, Type["Record"]]] = {}
     """Classes of members that have one of their own."""
@@ -90,7 +90,7 @@ class Result(Record):
 
 
 def frame_of(rows: List[Dict[str, Any]]) -> Any:
-    """A pandas DataFrame with a row each. Raises ImportError without pandas."""
+    """A pandas DataFrame with one row per item of `rows`. Raises ImportError without pandas."""
     import pandas
 
     return pandas.DataFrame(rows)

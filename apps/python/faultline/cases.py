@@ -52,7 +52,7 @@ def list(
     by: Optional[str] = None,
     robot: Optional[str] = None,
 ) -> List[Case]:
-    """The cases, those of a fault, joint, outcome, origin, person or robot only where one is named."""
+    """The cases; if a fault, joint, outcome, origin, person or robot is named, only those of it."""
     found, _ = _act(
         "list", model, cases, fault=fault, joint=joint, outcome=outcome, origin=origin, by=by, robot=robot
     )
@@ -77,8 +77,9 @@ def add(
     date: Optional[str] = None,
     robot: Optional[str] = None,
 ) -> Case:
-    """Adds a diagnosed fault (of a Diagnosis, or of a JSON report) as a case; with `fault`, what it really
-    was, it is confirmed. An event that is a case already is not added again; what is new about it is kept."""
+    """Adds a diagnosed fault (of a Diagnosis, or of a JSON report) as a case; with `fault`, the actual
+    fault, it is confirmed. An event that is already a case is not added again; new statements about it are
+    kept."""
     text = diagnosis.to_json() if isinstance(diagnosis, Diagnosis) else None
     report = None if diagnosis is None or isinstance(diagnosis, Diagnosis) else path_of(diagnosis)
     return _case(
