@@ -67,7 +67,7 @@ TEST(PagesAreReadable, ReportOfAFault) {
   const TemporaryFolder folder;
   expect_readable(made_page(
       folder, {"diagnose", kSamples + "golden/logs/torque_loss_2.csv", "--model",
-               kSamples + "golden/model-3700da71.json", "--cases", kSamples + "golden/cases-2116b820.db"}));
+               kSamples + "golden/model-749d7413.json", "--cases", kSamples + "golden/cases-18392bf9.db"}));
 }
 
 TEST(PagesAreReadable, ReportOfManyFaultsAndLongNames) {
