@@ -45,7 +45,7 @@ void copy_rows(LogSource& source, LogWriter& writer, const Progress& progress) {
   }
 }
 
-void tell_losses(const LogSource& source, const ConvertArguments& arguments) {
+void report_losses(const LogSource& source, const ConvertArguments& arguments) {
   for (const Issue& issue : source.issues().all())
     tell(fmt::format("{}: {} {}{}: {}", arguments.log, to_string(issue.severity), issue.code,
                      issue.count > 1 ? fmt::format(" ({} times)", issue.count) : "", issue.message));
@@ -85,7 +85,7 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
   const std::string provenance = provenance_of(*source);
   if (!provenance.empty()) writer->note_provenance(provenance);
   writer->commit();
-  tell_losses(*source, arguments);
+  report_losses(*source, arguments);
   return provenance.empty() ? kNothingFound : kFindings;
 }
 

@@ -8,7 +8,7 @@
 #include "formats/log_formats.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/mapped_source.hpp"
-#include "lib/log/recorder/mended_source.hpp"
+#include "lib/log/recorder/corrected_source.hpp"
 
 namespace faultline {
 namespace {

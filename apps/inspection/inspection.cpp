@@ -12,7 +12,7 @@
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/mapped_source.hpp"
-#include "lib/log/recorder/mended_source.hpp"
+#include "lib/log/recorder/corrected_source.hpp"
 #include "lib/robot/axis_units.hpp"
 
 namespace faultline {
@@ -90,7 +90,7 @@ Inspection inspect_joint_log(MappedSource& mapped, const std::vector<RawColumn>&
   Checkup checkup;
   OverviewPass overview;
   const bool is_its_robot = robot && robot->joints() == mapped.matching().joints;
-  MendedSource source(mapped, is_its_robot ? sliding_joints(robot->chain) : std::vector<bool>{});
+  CorrectedSource source(mapped, is_its_robot ? sliding_joints(robot->chain) : std::vector<bool>{});
   Log segment;
   while (source.next(segment)) {
     assess(segment, state);

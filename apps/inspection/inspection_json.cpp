@@ -78,7 +78,7 @@ Json joint_json(const JointCheckup& joint) {
           {"velocity_is_difference", joint.velocity.is_difference},
           {"torque_correlation", number_or_null(joint.torque.correlation)},
           {"torque_delay_rows", number_or_null(joint.torque.delay_rows)},
-          {"torque_delay_doubt_rows", number_or_null(joint.torque.delay_doubt_rows)},
+          {"torque_delay_doubt_rows", number_or_null(joint.torque.delay_uncertainty_rows)},
           {"torque_explained", number_or_null(joint.torque.explained)},
           {"torque_per_acceleration", number_or_null(joint.torque.inertia)}};
 }

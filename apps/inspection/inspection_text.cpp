@@ -66,8 +66,8 @@ std::string joint_line(const JointCheckup& joint, std::size_t number) {
   if (!std::isnan(joint.torque.correlation))
     words.push_back(fmt::format("torque correlates with acceleration ({:.2f})", joint.torque.correlation));
   if (!std::isnan(joint.torque.delay_rows))
-    words.push_back(
-        fmt::format("{:.1f} +- {:.1f} rows late", joint.torque.delay_rows, joint.torque.delay_doubt_rows));
+    words.push_back(fmt::format("{:.1f} +- {:.1f} rows late", joint.torque.delay_rows,
+                                joint.torque.delay_uncertainty_rows));
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
   return line.empty() ? "" : fmt::format("  joint {}   {}\n", number, line);

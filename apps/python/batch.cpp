@@ -34,7 +34,7 @@ Answer run(const std::vector<std::string>& paths, const FolderModels& models, co
   request.options.threads = threads;
   request.options.wait = wait;
   if (!shard.empty()) take_shard(shard, request.options);
-  return watched(progress, [&](WorkWatch& watch) {
+  return watched(progress, [&](ProgressRelay& watch) {
     request.options.progress = [&watch](const BatchProgress& at) {
       watch.tell(fmt::format("{} of {} logs", at.done, at.logs), static_cast<double>(at.done) / at.logs);
     };

@@ -33,7 +33,7 @@ struct MadeDiagnosis {
   /// Reads the log again. Throws Error(input) when it has changed since the diagnosis.
   template <typename Look>
   auto look_again(const py::object& progress, Look look) const {
-    return watched(progress, [&](WorkWatch& watch) {
+    return watched(progress, [&](ProgressRelay& watch) {
       const auto source = prefetched(log->open(model->model.robot, watch, true));
       auto seen = look(*source);
       if (source->identity().sha256 != diagnosis.log.sha256)
@@ -63,7 +63,7 @@ std::shared_ptr<MadeDiagnosis> make_diagnosis(const std::shared_ptr<LogHandle>& 
   options.criterion = named("criterion", criterion, kCriterionKinds);
   options.g = g;
   if (g < 0) throw Error(ErrorCode::usage, "g", "must not be negative");
-  Diagnosis diagnosis = watched(progress, [&](WorkWatch& watch) {
+  Diagnosis diagnosis = watched(progress, [&](ProgressRelay& watch) {
     const auto source = prefetched(log->open(model->model.robot, watch, true));
     return diagnose(*source, model->model, model->cases, options);
   });

@@ -38,7 +38,7 @@ std::string record(const std::vector<std::string>& logs, const std::string& mode
   arguments.folder = folder;
   arguments.logs = logs;
   arguments.options = {identify, trace_points, threads};
-  return watched(progress, [&](WorkWatch& watch) {
+  return watched(progress, [&](ProgressRelay& watch) {
     const std::vector<std::string> skipped = skip_label_tables(arguments.logs);
     return recorded_json(record_folder(arguments, watch.progress()), skipped);
   });
@@ -55,7 +55,7 @@ Checked check(const std::string& folder, const std::string& model, const std::st
   arguments.folder = folder;
   arguments.junit = junit;
   arguments.threads = threads;
-  return watched(progress, [&](WorkWatch& watch) {
+  return watched(progress, [&](ProgressRelay& watch) {
     const CheckedFolder checked = check_folder(arguments, watch.progress());
     return Checked(render_check_json(checked.check, checked.run), render_check_text(checked.check));
   });
@@ -75,7 +75,7 @@ std::pair<std::vector<std::string>, std::vector<std::string>> accept(
   arguments.same_verdict = same_verdict;
   if (!arguments.accepts() || (!names.empty() + all + same_verdict) > 1)
     throw Error(ErrorCode::usage, "accept", "needs exactly one of names, all=True and same_verdict=True");
-  return watched(progress, [&](WorkWatch& watch) {
+  return watched(progress, [&](ProgressRelay& watch) {
     const AcceptPlan plan = plan_accept(arguments, watch.progress());
     if (plan.is_refused(arguments)) return std::pair(std::vector<std::string>{}, plan.otherwise);
     carry_out(plan, arguments);

@@ -43,7 +43,7 @@ std::shared_ptr<Identification> identify_logs(const Logs& handles, const std::st
   options.method = method_named(method);
   options.keep_all = keep_all;
   options.threads = threads;
-  return watched(progress, [&](WorkWatch& watch) {
+  return watched(progress, [&](ProgressRelay& watch) {
     FileUse files;
     for (const auto& log : handles) files.reads("the log", log->files());
     files.reads("the robot file", robot_name).writes("output", output).claim();

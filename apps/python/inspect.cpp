@@ -15,7 +15,7 @@ namespace py = pybind11;
 
 std::shared_ptr<Inspection> inspect(const std::shared_ptr<LogHandle>& log, const std::string& robot_name,
                                     const py::object& progress) {
-  return watched(progress, [&](WorkWatch& watch) {
+  return watched(progress, [&](ProgressRelay& watch) {
     const std::optional<Robot> robot = robot_named(robot_name);
     return std::make_shared<Inspection>(
         inspect_columns(log->open_columns(robot ? robot->log.recording : RecordingChoice{}), robot,

@@ -56,7 +56,7 @@ void claim_files(const Logs& logs, const LearnCall& call) {
   files.claim();
 }
 
-std::shared_ptr<LearnedModel> learned_from(const Logs& logs, const LearnCall& call, WorkWatch& watch) {
+std::shared_ptr<LearnedModel> learned_from(const Logs& logs, const LearnCall& call, ProgressRelay& watch) {
   claim_files(logs, call);
   const Robot robot = load_robot_file(call.robot);
   const std::vector<LogLabel> labels = labels_of(call);
@@ -84,7 +84,7 @@ std::shared_ptr<LearnedModel> learn_logs(const Logs& logs, const std::string& ro
   chosen.keep_doubtful = options["force"].cast<bool>();
   chosen.seed = options["seed"].cast<std::uint64_t>();
   chosen.threads = chosen.identify.threads = options["threads"].cast<int>();
-  return watched(progress, [&](WorkWatch& watch) { return learned_from(logs, call, watch); });
+  return watched(progress, [&](ProgressRelay& watch) { return learned_from(logs, call, watch); });
 }
 
 /// Returns the model as read from its file: converted to text and back.

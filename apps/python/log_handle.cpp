@@ -15,7 +15,7 @@
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/log/log_channels.hpp"
 #include "lib/log/mapped_source.hpp"
-#include "lib/log/recorder/mended_source.hpp"
+#include "lib/log/recorder/corrected_source.hpp"
 #include "lib/robot/axis_units.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -58,7 +58,7 @@ std::unique_ptr<LogSource> LogHandle::open(const Robot& robot) const {
   return robot_log_of(open_columns(robot.log.recording), robot, parts_.run);
 }
 
-std::unique_ptr<LogSource> LogHandle::open(const Robot& robot, WorkWatch& watch, bool tells) const {
+std::unique_ptr<LogSource> LogHandle::open(const Robot& robot, ProgressRelay& watch, bool tells) const {
   return interruptible(open(robot), watch, tells);
 }
 
@@ -76,7 +76,7 @@ struct WholeLog {
 };
 
 WholeLog whole(const LogHandle& handle, const std::optional<Robot>& robot, bool keep_extra,
-               WorkWatch& watch) {
+               ProgressRelay& watch) {
   MappedSourceOptions options;
   if (robot) options.columns = robot->log.columns;
   options.run = handle.parts().run;
@@ -96,8 +96,8 @@ WholeLog whole(const LogHandle& handle, const std::optional<Robot>& robot, bool 
 /// Returns the channels in SI by name, then the report of reading them, as JSON.
 py::tuple read_channels(const LogHandle& handle, const std::string& robot, bool extra,
                         const py::object& progress) {
-  WholeLog read =
-      watched(progress, [&](WorkWatch& watch) { return whole(handle, robot_named(robot), extra, watch); });
+  WholeLog read = watched(
+      progress, [&](ProgressRelay& watch) { return whole(handle, robot_named(robot), extra, watch); });
   py::dict channels, units;
   channels["t"] = owned_array(std::move(read.log.time));
   for_each_joint_channel(read.log, [&](std::vector<double>& values, Channel channel) {

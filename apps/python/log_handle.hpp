@@ -35,7 +35,7 @@ class LogHandle {
   /// Opens a log of this robot, see open_robot_log().
   std::unique_ptr<LogSource> open(const Robot& robot) const;
   /// Does the same, but ends with the work and does not read ahead; reports the progress if `tells` is set.
-  std::unique_ptr<LogSource> open(const Robot& robot, WorkWatch& watch, bool tells) const;
+  std::unique_ptr<LogSource> open(const Robot& robot, ProgressRelay& watch, bool tells) const;
 
  private:
   std::string name_;

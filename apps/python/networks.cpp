@@ -141,7 +141,7 @@ py::list inputs_in(const std::shared_ptr<LoadedModel>& loaded, const std::string
                    const std::shared_ptr<LogHandle>& log, const py::object& progress) {
   const Model& model = loaded->model;
   const NetworkLayout layout = layout_named(model, network);
-  const std::vector<MatrixXd> inputs = watched(progress, [&](WorkWatch& watch) {
+  const std::vector<MatrixXd> inputs = watched(progress, [&](ProgressRelay& watch) {
     const auto source = prefetched(log->open(model.robot, watch, true));
     if (network.starts_with("residual")) return residual_inputs(*source, model);
     if (network.starts_with("sample")) return sample_inputs(*source, model);

@@ -15,7 +15,7 @@ namespace py = pybind11;
 
 std::string simulate_spec(const std::string& spec, const std::string& folder,
                           std::optional<std::uint64_t> seed, const py::object& progress) {
-  return watched(progress, [&](WorkWatch& watch) {
+  return watched(progress, [&](ProgressRelay& watch) {
     return simulate_into({spec, folder, seed}, watch.progress()).dump(2) + "\n";
   });
 }
@@ -28,8 +28,8 @@ std::string reproduce_paper(const std::string& folder, bool quick, std::optional
   options.threads = threads;
   if (quick) options.seeds = 1;
   if (seeds) options.seeds = *seeds;
-  return watched(progress,
-                 [&](WorkWatch& watch) { return reproduce_into(folder, options, watch.progress()).json; });
+  return watched(
+      progress, [&](ProgressRelay& watch) { return reproduce_into(folder, options, watch.progress()).json; });
 }
 
 }  // namespace

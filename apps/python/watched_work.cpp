@@ -14,7 +14,7 @@ namespace py = pybind11;
 constexpr auto kPause = std::chrono::milliseconds(50);
 
 /// Handles signals and reports the progress; throws the exceptions of Python.
-void serve(const py::object& progress, WorkWatch& watch) {
+void serve(const py::object& progress, ProgressRelay& watch) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   const auto told = watch.take();
   if (told && !progress.is_none()) progress(told->first, told->second);
@@ -22,7 +22,7 @@ void serve(const py::object& progress, WorkWatch& watch) {
 
 class InterruptibleSource : public LogSource {
  public:
-  InterruptibleSource(std::unique_ptr<LogSource> log, WorkWatch& watch, bool tells)
+  InterruptibleSource(std::unique_ptr<LogSource> log, ProgressRelay& watch, bool tells)
       : log_(std::move(log)), watch_(watch), tells_(tells) {}
 
   bool next(Log& segment) override {
@@ -39,36 +39,36 @@ class InterruptibleSource : public LogSource {
 
  private:
   std::unique_ptr<LogSource> log_;
-  WorkWatch& watch_;
+  ProgressRelay& watch_;
   bool tells_;
 };
 
 }  // namespace
 
-void WorkWatch::tell(const std::string& what, double share) {
+void ProgressRelay::tell(const std::string& what, double share) {
   check();
   const std::lock_guard lock(mutex_);
   told_ = {what, share};
 }
 
-void WorkWatch::finish() {
+void ProgressRelay::finish() {
   const std::lock_guard lock(mutex_);
   done_ = true;
   changed_.notify_all();
 }
 
-bool WorkWatch::wait() {
+bool ProgressRelay::wait() {
   std::unique_lock lock(mutex_);
   return changed_.wait_for(lock, kPause, [this] { return done_; });
 }
 
-std::optional<std::pair<std::string, double>> WorkWatch::take() {
+std::optional<std::pair<std::string, double>> ProgressRelay::take() {
   const std::lock_guard lock(mutex_);
   return std::exchange(told_, std::nullopt);
 }
 
-void run_watched(const py::object& progress, const std::function<void(WorkWatch&)>& work) {
-  WorkWatch watch;
+void run_with_progress(const py::object& progress, const std::function<void(ProgressRelay&)>& work) {
+  ProgressRelay watch;
   std::exception_ptr of_work, of_python;
   std::thread worker([&] {
     try {
@@ -95,7 +95,7 @@ void run_watched(const py::object& progress, const std::function<void(WorkWatch&
   if (of_work) std::rethrow_exception(of_work);
 }
 
-std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, WorkWatch& watch, bool tells) {
+std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, ProgressRelay& watch, bool tells) {
   return std::make_unique<InterruptibleSource>(std::move(log), watch, tells);
 }
 

@@ -22,7 +22,7 @@ namespace faultline {
 struct Interruption {};
 
 /// Connects work in a thread of its own with Python, which waits for it and receives its progress.
-class WorkWatch {
+class ProgressRelay {
  public:
   /// Reports the progress; the work calls it regularly. Throws Interruption when the work must end.
   void tell(const std::string& what, double share);
@@ -52,16 +52,16 @@ class WorkWatch {
 /// Runs the work in a thread without Python's lock. The calling thread handles signals (Ctrl-C) and passes
 /// the progress to `progress`, a callable (what, share) or None; an exception of either ends the work and is
 /// raised again.
-void run_watched(const pybind11::object& progress, const std::function<void(WorkWatch&)>& work);
+void run_with_progress(const pybind11::object& progress, const std::function<void(ProgressRelay&)>& work);
 
 template <typename Work>
 auto watched(const pybind11::object& progress, Work work) {
-  std::optional<decltype(work(std::declval<WorkWatch&>()))> result;
-  run_watched(progress, [&](WorkWatch& watch) { result.emplace(work(watch)); });
+  std::optional<decltype(work(std::declval<ProgressRelay&>()))> result;
+  run_with_progress(progress, [&](ProgressRelay& watch) { result.emplace(work(watch)); });
   return std::move(*result);
 }
 
 /// Returns a log that ends the work that reads it if requested; reports the share read if `tells` is set.
-std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, WorkWatch& watch, bool tells);
+std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, ProgressRelay& watch, bool tells);
 
 }  // namespace faultline

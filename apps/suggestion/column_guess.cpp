@@ -52,7 +52,7 @@ OtherQuantity other_quantity_of(const std::string& word) {
   return others.count(word) > 0 ? OtherQuantity::other : OtherQuantity::none;
 }
 
-OtherQuantity other_quantity_of(const NameReading& reading) {
+OtherQuantity other_quantity_of(const ParsedName& reading) {
   std::istringstream words(reading.stem);
   OtherQuantity found = OtherQuantity::none;
   for (std::string word; words >> word;) found = std::max(found, other_quantity_of(word));
@@ -175,7 +175,7 @@ bool flows(const std::vector<double>& values) {
 std::vector<GuessedChannel> by_numbers(const RawExcerpt& excerpt, int time) {
   std::map<std::string, std::map<int, int>> families;
   for (int c = 0; c < std::ssize(excerpt.columns); ++c) {
-    const NameReading reading = read_name(excerpt.columns[c].name);
+    const ParsedName reading = parse_name(excerpt.columns[c].name);
     if (c != time && reading.number && may_be(excerpt.columns[c], Quantity::q))
       families[reading.stem].emplace(*reading.number, c);
   }
@@ -227,7 +227,7 @@ std::vector<GuessedChannel> guess_columns(const RawExcerpt& excerpt) {
 }
 
 bool may_be(const RawColumn& column, Quantity quantity) {
-  const NameReading reading = read_name(column.name);
+  const ParsedName reading = parse_name(column.name);
   const auto unit = known_unit(column.unit);
   const Dimension dimension = unit ? unit->dimension : Dimension::none;
   if (is_torque(quantity)) {

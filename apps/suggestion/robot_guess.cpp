@@ -211,7 +211,8 @@ class Guesser {
       if (std::isnan(torque.correlation)) continue;
       one.reason += fmt::format("; correlation with acceleration {:.2f}", torque.correlation);
       if (!std::isnan(torque.delay_rows))
-        one.reason += fmt::format(", {:.1f} +- {:.1f} rows late", torque.delay_rows, torque.delay_doubt_rows);
+        one.reason +=
+            fmt::format(", {:.1f} +- {:.1f} rows late", torque.delay_rows, torque.delay_uncertainty_rows);
       const double power = units_[j].flipped ? -numbers_[j].power : numbers_[j].power;
       const bool against =
           torque.correlation < kAgainst || (torque.correlation < kRatherAgainst && power < kBrakes);
@@ -278,7 +279,7 @@ class Guesser {
 
   void guess_meaning(const GuessedChannel& tau) {
     const RawColumn& column = excerpt_.columns[static_cast<std::size_t>(tau.column)];
-    const auto quantity = read_name(column.name).quantity;
+    const auto quantity = parse_name(column.name).quantity;
     const auto unit = known_unit(column.unit);
     if (unit && unit->dimension != Dimension::none && !measures(unit->dimension, Quantity::tau)) {
       guess_.torque = "current";

@@ -64,8 +64,8 @@ std::string reach_table(const Model& model) {
   if (model.validation.reach.empty()) return "";
   std::string text =
       fmt::format("{:<18} {:>5} {:>9} {:>16} {:>10}\n", "fault", "joint", "found", "from", "delay/s");
-  for (const Reach& reach : model.validation.reach) {
-    const std::string size = reach_text(reach, model.robot.chain);
+  for (const Detectability& reach : model.validation.reach) {
+    const std::string size = detectable_size_text(reach, model.robot.chain);
     text += fmt::format("{:<18} {:>5} {:>9} {:>16} {:>10}\n", to_string(reach.label.kind), reach.label.joint,
                         fmt::format("{} of {}", reach.found, reach.runs), size.empty() ? "-" : size,
                         delay_text(reach.median_delay_s));

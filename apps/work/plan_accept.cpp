@@ -77,14 +77,14 @@ AcceptPlan plan_accept(const AcceptArguments& arguments, const Progress& progres
 void carry_out(const AcceptPlan& plan, const AcceptArguments& arguments) {
   const std::string& folder = arguments.folder;
   if (plan.names.empty()) {
-    remove_left_over(folder, plan.set);
+    remove_orphaned_files(folder, plan.set);
     return;
   }
   const NewModel model = arguments.has_new_model()
                              ? NewModel{arguments.model, arguments.case_base(), &plan.subject}
                              : NewModel{};
   accept_golden(folder, plan.set, plan.run, plan.names, model, default_tolerances(plan.subject.model));
-  remove_left_over(folder, load_golden(folder));
+  remove_orphaned_files(folder, load_golden(folder));
 }
 
 }  // namespace faultline

@@ -5,7 +5,7 @@
 
 #include "formats/open_log.hpp"
 #include "lib/log/mapped_source.hpp"
-#include "lib/log/recorder/mended_source.hpp"
+#include "lib/log/recorder/corrected_source.hpp"
 #include "lib/log/transformed/coupled_source.hpp"
 #include "lib/log/transformed/delayed_torque_source.hpp"
 #include "lib/robot/axis_units.hpp"

@@ -118,8 +118,8 @@ class ArrayReader : public RawReader {
       const std::int64_t lost = table_.rows_held - used.rows_held;
       if (lost > 0)
         for (std::size_t c = 0; c < used.columns; ++c)
-          tell_column(opening_, "file_truncated", used.first_column + c, used.rows_held, lost,
-                      "the file ends before them");
+          report_column(opening_, "file_truncated", used.first_column + c, used.rows_held, lost,
+                        "the file ends before them");
     }
   }
 
@@ -191,8 +191,8 @@ class ArrayReader : public RawReader {
       if (lost.column >= 0 && static_cast<int>(i) != lost.column) continue;
       const std::size_t column = used.first_column + static_cast<std::size_t>(band.columns[i]);
       if (damaged)
-        tell_column(issues_, "array_damaged", column, slab_first_ + lost.first, lost.rows,
-                    "they are damaged in the file");
+        report_column(issues_, "array_damaged", column, slab_first_ + lost.first, lost.rows,
+                      "they are damaged in the file");
       for (auto row = static_cast<std::size_t>(lost.first);
            row < static_cast<std::size_t>(lost.first + lost.rows); ++row) {
         slab_[column][row] = kNan;
@@ -202,8 +202,8 @@ class ArrayReader : public RawReader {
     }
   }
 
-  void tell_column(Issues& issues, const char* code, std::size_t column, std::int64_t row, std::int64_t count,
-                   const std::string& why) const {
+  void report_column(Issues& issues, const char* code, std::size_t column, std::int64_t row,
+                     std::int64_t count, const std::string& why) const {
     const std::string& name = table_.columns[column].name;
     issues.add({code, name, Severity::severe,
                 fmt::format("values of \"{}\" could not be read from row {} on and count as missing: {}",

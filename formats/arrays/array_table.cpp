@@ -52,7 +52,7 @@ bool looks_like_time(const NamedArray& array) {
 /// True when the name is that of a signal, or the array is a list longer than a robot has of one kind; an
 /// image is excluded because it is that long in both dimensions.
 bool looks_recorded(const NamedArray& array) {
-  if (looks_like_time(array) || read_name(split_unit(leaf_of(array.name)).name).quantity) return true;
+  if (looks_like_time(array) || parse_name(split_unit(leaf_of(array.name)).name).quantity) return true;
   const Shape shape = squeezed(array.shape);
   const double longest =
       shape.empty() ? 0.0 : static_cast<double>(*std::max_element(shape.begin(), shape.end()));
@@ -107,7 +107,7 @@ class TableMaker {
                      [&](std::size_t a, std::size_t b) { return arrays_[a].rank < arrays_[b].rank; });
     for (const std::size_t i : order) consider(i);
     name_columns();
-    tell_left_out();
+    report_left_out();
     find_time();
     return std::move(table_);
   }
@@ -205,16 +205,16 @@ class TableMaker {
     return tried;
   }
 
-  void tell_left_out() {
+  void report_left_out() {
     const auto lost = std::stable_partition(left_out_.begin(), left_out_.end(),
                                             [](const NamedArray* array) { return !looks_recorded(*array); });
-    tell_left_out("array_left_out", Severity::note, {left_out_.begin(), lost}, "");
-    tell_left_out("signal_left_out", Severity::warning, {lost, left_out_.end()},
-                  "; write signals of another length into a separate file and --join it by time");
+    report_left_out("array_left_out", Severity::note, {left_out_.begin(), lost}, "");
+    report_left_out("signal_left_out", Severity::warning, {lost, left_out_.end()},
+                    "; write signals of another length into a separate file and --join it by time");
   }
 
-  void tell_left_out(const char* code, Severity severity, const std::vector<const NamedArray*>& arrays,
-                     const char* advice) {
+  void report_left_out(const char* code, Severity severity, const std::vector<const NamedArray*>& arrays,
+                       const char* advice) {
     if (arrays.empty()) return;
     const bool one = arrays.size() == 1;
     table_.issues.add(

@@ -158,7 +158,7 @@ const std::string* StoredArrays::in_memory(std::size_t content) {
   }
   char beyond = 0;
   stream.read(static_cast<std::int64_t>(bytes.size()), &beyond, 1);  // to the end mark of the stream
-  if (stream.mismatch()) tell_mismatch(what.name);
+  if (stream.mismatch()) report_mismatch(what.name);
   memory_left_ -= static_cast<std::int64_t>(bytes.size());
   return &bytes;
 }
@@ -240,7 +240,7 @@ void StoredArrays::read(const ArrayBand& band, BandValues& values) {
     std::replace(column.begin(), column.end(), kNone, std::numeric_limits<double>::quiet_NaN());
 }
 
-void StoredArrays::tell_mismatch(const std::string& name) {
+void StoredArrays::report_mismatch(const std::string& name) {
   list_.issues.add(make_issue(
       "checksum_mismatch", Severity::severe,
       fmt::format("the checksum of \"{}\" does not match its numbers; some of them are wrong, but the file "
@@ -261,10 +261,10 @@ void StoredArrays::finish() {
     for (std::size_t got; (got = stream.read(at, piece.data(), piece.size())) > 0;
          at += static_cast<std::int64_t>(got))
       crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(piece.data()), got);
-    if (crc != *content.crc) tell_mismatch(content.name);
+    if (crc != *content.crc) report_mismatch(content.name);
   }
   for (auto& [key, stream] : streams_)
-    if (stream.mismatch()) tell_mismatch(list_.contents[list_.arrays[key.first].content].name);
+    if (stream.mismatch()) report_mismatch(list_.contents[list_.arrays[key.first].content].name);
 }
 
 }  // namespace faultline

@@ -65,7 +65,7 @@ class StoredArrays : public ArrayFile {
   const std::string* in_memory(std::size_t content);
   void read_by_rows(const ArrayBand& band, BandValues& values);
   void read_by_columns(const ArrayBand& band, BandValues& values);
-  void tell_mismatch(const std::string& name);
+  void report_mismatch(const std::string& name);
 
   std::unique_ptr<RandomFile> file_;
   StoredList list_;

@@ -167,7 +167,7 @@ void find_time_unit(std::span<const CsvLine> rows, CsvDialect& dialect) {
   if (time < 0 || !dialect.columns[static_cast<std::size_t>(time)].unit.empty()) return;
   std::vector<NamedValues> moving;
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (const auto quantity = read_name(names[i]).quantity;
+    if (const auto quantity = parse_name(names[i]).quantity;
         quantity == Quantity::q || quantity == Quantity::dq)
       moving.push_back({names[i], values_of(rows, dialect.value_fields[i], dialect)});
   const auto cell_of_time = [&](const CsvLine& row) {

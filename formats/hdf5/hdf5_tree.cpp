@@ -144,7 +144,7 @@ herr_t visit_link(hid_t group, const char* name, const H5L_info_t* link, void* w
 }
 
 /// Reports soft links without a target in the file. One with a target is only another name of it.
-void tell_open_links(Walk& walk) {
+void report_open_links(Walk& walk) {
   for (const auto& [link, target] : walk.soft_links)
     if (!walk.places.count(target))
       leave_out(walk, link, "is a link without a target in this file and was left out");
@@ -205,7 +205,7 @@ Hdf5Tree hdf5_tree(hid_t file) {
   Walk walk;
   walk.file = file;
   walk_group(walk, "/");
-  tell_open_links(walk);
+  report_open_links(walk);
   return std::move(walk.tree);
 }
 

@@ -227,7 +227,7 @@ class MatrixParser {
   std::string label_;  ///< of the signal that is being read
 };
 
-void tell_damaged(StoredList& list, std::int64_t at, bool cut) {
+void report_damaged(StoredList& list, std::int64_t at, bool cut) {
   list.issues.add(make_issue(
       cut ? "file_truncated" : "array_damaged", Severity::severe,
       cut ? fmt::format("the file ends inside the variable at byte {}", at)
@@ -239,7 +239,7 @@ void read_variables(const RandomFile& file, bool swapped, StoredList& list) {
   MatrixParser plain(file, list, 0, swapped);
   for (std::int64_t at = kMatHeaderBytes; at < file.size();) {
     const auto element = plain.element_at(at);
-    if (!element) return tell_damaged(list, at, true);
+    if (!element) return report_damaged(list, at, true);
     const bool cut = element->next > file.size();
     bool good = false;
     if (element->type == kCompressed) {
@@ -252,7 +252,7 @@ void read_variables(const RandomFile& file, bool swapped, StoredList& list) {
     } else {
       good = plain.read_matrix(*element, "", 0);
     }
-    if (!good || cut) tell_damaged(list, at, cut);
+    if (!good || cut) report_damaged(list, at, cut);
     at = element->next;
   }
 }

@@ -34,7 +34,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 /// True for a topic of commands to the robot.
 bool is_command(const std::string& topic) {
-  NameReading reading = read_name("position/" + topic);
+  ParsedName reading = parse_name("position/" + topic);
   return reading.quantity == Quantity::q_ref;
 }
 
@@ -67,7 +67,7 @@ std::vector<int> numbered_order(const std::vector<std::string>& joints) {
   std::set<std::string> stems;
   std::set<int> numbers;
   for (int j = 0; j < std::ssize(joints); ++j) {
-    const NameReading reading = read_name(joints[j]);
+    const ParsedName reading = parse_name(joints[j]);
     if (!reading.number) return {};
     stems.insert(reading.stem);
     numbers.insert(*reading.number);
@@ -128,7 +128,7 @@ class Layouter {
       else
         add_other(s, order);
     }
-    tell_left_out();
+    report_left_out();
     return std::move(layout_);
   }
 
@@ -160,7 +160,7 @@ class Layouter {
     if (!same.empty() && is_command(topic) && !has_reference_) {
       has_reference_ = true;
       add_stream(s, kCommanded, same);
-    } else if (!same.empty() && torques && read_name("torque/" + topic).quantity == Quantity::tau_meas &&
+    } else if (!same.empty() && torques && parse_name("torque/" + topic).quantity == Quantity::tau_meas &&
                !has_measured_) {
       has_measured_ = true;
       add_stream(s, kMeasuredBeside, same);
@@ -184,7 +184,7 @@ class Layouter {
     if (left_out_++ == 0) first_left_out_ = topics_[streams_[s].topic].name;
   }
 
-  void tell_left_out() {
+  void report_left_out() {
     if (left_out_ > 0)
       layout_.issues.add(
           {"streams_left_out", "", Severity::warning,

@@ -332,7 +332,7 @@ class JointStateReader : public RawReader {
     at_end_ = true;
     identity_.sha256 = source_->sha256();
     if (alternating_.alternate()) issues_.add(publishers_mixed(source_->topics()[main_stream().topic]));
-    rivals_.tell_end(issues_);
+    rivals_.report_at_end(issues_);
   }
 
   std::unique_ptr<MessageSource> source_;

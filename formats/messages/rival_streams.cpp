@@ -39,7 +39,7 @@ void RivalStreams::count(std::int64_t taken) {
   any_came_ = false;
 }
 
-void RivalStreams::tell_end(Issues& issues) {
+void RivalStreams::report_at_end(Issues& issues) {
   count(0);
   if (between_rows_ == 0) return;
   issues.add({"messages_between_rows", "", Severity::note,

@@ -25,7 +25,7 @@ class RivalStreams {
     if (any_came_) count(1);
   }
   /// Adds a note about the messages that are in no row.
-  void tell_end(Issues& issues);
+  void report_at_end(Issues& issues);
 
  private:
   void count(std::int64_t taken);

@@ -15,7 +15,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSaysNothing = 1e6;     // times the usual standard deviation: a lost row has no weight
+constexpr double kSilentStd = 1e6;       // times the usual standard deviation: a lost row has no weight
 constexpr double kRare = 50.0;           // times the median square: larger squares are clipped to it
 constexpr double kLeastShare = 0.1;      // least constant part, as a share of the median square
 constexpr double kRidge = 1e-4;          // of the variance, on the diagonal of the autocorrelation
@@ -53,7 +53,7 @@ Terms non_negative(const TermMatrix& a, const Terms& b) {
   return best;
 }
 
-bool counts(const LeftOver& log, int k) {
+bool counts(const LogResidual& log, int k) {
   return !log.rows->lost[k] && (log.not_counted.empty() || !log.not_counted[k]);
 }
 
@@ -68,7 +68,7 @@ MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, const RowNo
     share << n.base * loudness[j] * loudness[j], n.torque, n.rest, n.speed, n.timing;
     for (int k = 0; k < rows.rows(); ++k) {
       out(k, j) = std::sqrt(share.dot(variance_terms(rows, setting, k, j)));
-      if (rows.lost[k]) out(k, j) *= kSaysNothing;
+      if (rows.lost[k]) out(k, j) *= kSilentStd;
     }
   }
   return out;
@@ -83,19 +83,19 @@ MatrixXd whiten(const MatrixXd& columns, const VectorXd& std, const JointNoise& 
   return out;
 }
 
-RowNoise with_variance(const std::vector<LeftOver>& logs, const RowSetting& setting, RowNoise noise) {
+RowNoise with_variance(const std::vector<LogResidual>& logs, const RowSetting& setting, RowNoise noise) {
   const int joints = setting.joints();
   noise.joint.resize(joints);
   for (int j = 0; j < joints; ++j) {
     std::vector<double> squares;
-    for (const LeftOver& log : logs)
+    for (const LogResidual& log : logs)
       for (int k = 0; k < log.rows->rows(); ++k)
         if (counts(log, k)) squares.push_back(log.torque(k, j) * log.torque(k, j));
     if (squares.empty()) continue;
     const double median = upper_median(squares);
     TermMatrix a = TermMatrix::Zero();
     Terms b = Terms::Zero();
-    for (const LeftOver& log : logs)
+    for (const LogResidual& log : logs)
       for (int k = 0; k < log.rows->rows(); ++k) {
         if (!counts(log, k)) continue;
         const Terms x = variance_terms(*log.rows, setting, k, j);
@@ -115,11 +115,11 @@ RowNoise with_variance(const std::vector<LeftOver>& logs, const RowSetting& sett
   return noise;
 }
 
-RowNoise with_filter(const std::vector<LeftOver>& logs, int order, RowNoise noise) {
+RowNoise with_filter(const std::vector<LogResidual>& logs, int order, RowNoise noise) {
   for (std::size_t j = 0; j < noise.joint.size(); ++j) {
     VectorXd correlation = VectorXd::Zero(order + 1);
     double rows = 0.0;
-    for (const LeftOver& log : logs) {
+    for (const LogResidual& log : logs) {
       const VectorXd x = log.torque.col(j).cwiseQuotient(log.std.col(j));
       rows += static_cast<double>(x.size());
       for (int lag = 0; lag <= order && lag < x.size(); ++lag)

@@ -36,7 +36,7 @@ Eigen::MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, cons
 Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns, const Eigen::VectorXd& std, const JointNoise& noise);
 
 /// Residuals of one healthy log and the rows that they belong to.
-struct LeftOver {
+struct LogResidual {
   const BalanceRows* rows = nullptr;
   Eigen::MatrixXd torque;         ///< rows x joints
   Eigen::MatrixXd std;            ///< rows x joints, for with_filter()
@@ -45,10 +45,10 @@ struct LeftOver {
 
 /// Returns `noise` with the variances estimated by non-negative least squares of the squared residuals, of
 /// which rare large ones are clipped.
-RowNoise with_variance(const std::vector<LeftOver>& logs, const RowSetting& setting, RowNoise noise);
+RowNoise with_variance(const std::vector<LogResidual>& logs, const RowSetting& setting, RowNoise noise);
 /// Returns `noise` with the autoregression of order `order` of the residuals over their standard deviation
 /// (Yule and Walker).
-RowNoise with_filter(const std::vector<LeftOver>& logs, int order, RowNoise noise);
+RowNoise with_filter(const std::vector<LogResidual>& logs, int order, RowNoise noise);
 
 /// Returns the autocovariance of rows over their standard deviation: of lag 0 up to the order of the filter.
 Eigen::VectorXd autocovariance(const JointNoise& noise);

@@ -99,7 +99,7 @@ double velocity_reach_s(const RowSetting& setting, double share) {
   return decay > 0.0 ? setting.period_s * elementary::log(share) / elementary::log(decay) : 0.0;
 }
 
-VectorXd fused_velocity(const JointReading& reading, const RowSetting& setting, int joint) {
+VectorXd fused_velocity(const MeasuredMotion& reading, const RowSetting& setting, int joint) {
   const VectorXd difference = gradient(reading.q, setting.period_s);
   if (setting.velocity_is_difference || reading.dq.size() == 0) return difference;
   VectorXd off = difference - reading.dq;

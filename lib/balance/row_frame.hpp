@@ -38,7 +38,7 @@ Eigen::VectorXd link_speed(const Eigen::VectorXd& velocity, const Eigen::VectorX
 
 /// Returns the velocity of joint `joint` (from 0) in each sample: position differences at low frequencies,
 /// the logged velocity at high ones.
-Eigen::VectorXd fused_velocity(const JointReading& reading, const RowSetting& setting, int joint);
+Eigen::VectorXd fused_velocity(const MeasuredMotion& reading, const RowSetting& setting, int joint);
 
 /// tanh(speed / width).
 Eigen::VectorXd saturated(const Eigen::VectorXd& speed, double width);

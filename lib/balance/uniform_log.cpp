@@ -136,8 +136,8 @@ UniformLog uniform_log(LogSource& log, double period_s) {
   return on_grid(all, placed(all, log.identity().path, period_s));
 }
 
-JointReading reading_of(const UniformLog& log, int joint) {
-  JointReading out{log.q.col(joint), {}};
+MeasuredMotion reading_of(const UniformLog& log, int joint) {
+  MeasuredMotion out{log.q.col(joint), {}};
   if (log.dq.rows() > 0) out.dq = log.dq.col(joint);
   return out;
 }

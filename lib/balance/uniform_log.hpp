@@ -28,11 +28,11 @@ struct UniformLog {
 };
 
 /// Measured motion of one joint, by sample.
-struct JointReading {
+struct MeasuredMotion {
   Eigen::VectorXd q, dq;  ///< `dq` is empty without a velocity
 };
 
-JointReading reading_of(const UniformLog& log, int joint);
+MeasuredMotion reading_of(const UniformLog& log, int joint);
 
 /// Reads the whole log onto a grid of about `period_s` that begins with its first row; each row goes to its
 /// most likely point (see sample_grid). Throws Error(input) when fewer than two rows have all values.

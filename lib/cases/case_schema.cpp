@@ -61,7 +61,7 @@ std::string expected_schema(std::int64_t version) {
 }
 
 /// Returns in words the first element of the schema that no case base has, for a message; may be empty.
-std::string stranger_in(SqliteFile& file) {
+std::string unknown_element(SqliteFile& file) {
   SqliteStatement row(file,
                       "SELECT type, name FROM sqlite_schema WHERE type NOT IN ('table', 'index') OR name NOT "
                       "IN ('metric', 'feature', 'fault_case', 'counts', 'identity', "
@@ -105,7 +105,8 @@ std::int64_t checked_case_schema(SqliteFile& file, const std::string& name) {
                             "); update the program");
   if (version < 1) refuse_schema(name, "has the unknown case base schema " + std::to_string(version));
   if (schema_of(file) != expected_schema(version))
-    refuse_schema(name, "has tables that differ from those of a case base of faultline" + stranger_in(file) +
+    refuse_schema(name, "has tables that differ from those of a case base of faultline" +
+                            unknown_element(file) +
                             ": it is damaged, or was changed by another program; restore it from a copy");
   return version;
 }

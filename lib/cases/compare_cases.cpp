@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastWeight = 0.1;
-constexpr double kStandsOut = 0.5;  // least shared_oddity() of a listed feature, standard deviations
+constexpr double kStandsOut = 0.5;  // least shared_deviation() of a listed feature, standard deviations
 
 /// Returns how much further both are from the mean than from each other, in standard deviations of all cases.
-double shared_oddity(double a, double b, const UsualFeature& usual) {
+double shared_deviation(double a, double b, const UsualFeature& usual) {
   if ((a > usual.mean) != (b > usual.mean) || !(usual.spread > 0.0)) return 0.0;
   const double odd = std::min(std::abs(a - usual.mean), std::abs(b - usual.mean));
   return std::min((odd - std::abs(a - b)) / usual.spread, kLargestDifference);
@@ -53,7 +53,7 @@ Likeness compare_cases(const Metric& metric, std::span<const UsualFeature> usual
     const double difference = std::min(std::abs(a[i] - b[i]) / feature.scale, kLargestDifference);
     if (difference > 1.0)
       found.unlike.push_back({i, difference, feature.weight * difference * difference});
-    else if (const double odd = shared_oddity(a[i], b[i], usual[i]); odd > kStandsOut)
+    else if (const double odd = shared_deviation(a[i], b[i], usual[i]); odd > kStandsOut)
       found.alike.push_back({i, difference, feature.weight * odd});
   }
   sort(found.alike);

@@ -20,7 +20,7 @@ constexpr std::streamsize kBlock = 1 << 16;
 
 /// Whether a write failed because the reader closed the pipe early, as `head` does. This is no failure: the
 /// rest of the output has no reader.
-bool reader_has_left() { return errno == EPIPE; }
+bool is_broken_pipe() { return errno == EPIPE; }
 
 }  // namespace
 
@@ -56,19 +56,18 @@ void AtomicFile::fail(const char* doing) {
 
 void AtomicFile::write(std::string_view bytes) {
   if (bytes.empty()) return;  // its data may be null, which fwrite does not accept
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size() && !reader_has_left())
-    fail("written");
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size() && !is_broken_pipe()) fail("written");
 }
 
 void AtomicFile::commit() {
-  const bool flushed = std::fflush(file_) == 0, nobody_reads = !flushed && reader_has_left();
-  if (!flushed && !nobody_reads) fail("written");
+  const bool flushed = std::fflush(file_) == 0, is_pipe_closed = !flushed && is_broken_pipe();
+  if (!flushed && !is_pipe_closed) fail("written");
   if (to_stdout_) return;
   std::FILE* file = file_;
   file_ = nullptr;
   const bool synced = temporary_ || ::fsync(::fileno(file)) == 0 || errno == EINVAL;
-  const bool closed = std::fclose(file) == 0 || reader_has_left();
-  if (!nobody_reads && !(closed && synced)) fail("written");
+  const bool closed = std::fclose(file) == 0 || is_broken_pipe();
+  if (!is_pipe_closed && !(closed && synced)) fail("written");
   if (temporary_) temporary_->commit();
 }
 

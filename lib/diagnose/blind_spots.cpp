@@ -140,7 +140,7 @@ std::vector<std::string> rough_spots(const std::vector<double>& roughness) {
                   joints)};
 }
 
-std::string reach_text(const Reach& reach, const Chain& chain) {
+std::string detectable_size_text(const Detectability& reach, const Chain& chain) {
   const FaultDescription& fault = describe(reach.label.kind);
   if (fault.size_count == 0) return "";
   if (!std::isfinite(reach.size)) return "at any size";
@@ -150,14 +150,15 @@ std::string reach_text(const Reach& reach, const Chain& chain) {
   return fmt::format("{:.2g} {}", reach.size, unit_of(measure, turns));
 }
 
-std::vector<std::string> reach_sentences(const std::vector<Reach>& reach, const Chain& chain) {
+std::vector<std::string> detectability_sentences(const std::vector<Detectability>& reach,
+                                                 const Chain& chain) {
   std::vector<std::string> sentences;
   for (int k = 0; k < kFaultKinds; ++k) {
     std::string joints;
-    for (const Reach& each : reach) {
+    for (const Detectability& each : reach) {
       if (each.label.kind != static_cast<FaultKind>(k) || describe(each.label.kind).size_count == 0) continue;
-      joints +=
-          fmt::format("{}joint {} {}", joints.empty() ? "" : ", ", each.label.joint, reach_text(each, chain));
+      joints += fmt::format("{}joint {} {}", joints.empty() ? "" : ", ", each.label.joint,
+                            detectable_size_text(each, chain));
     }
     if (!joints.empty())
       sentences.push_back(

@@ -18,12 +18,12 @@
 #include "lib/diagnose/least_size.hpp"
 #include "lib/diagnose/monitor/model_rate.hpp"
 #include "lib/diagnose/monitor/monitor.hpp"
-#include "lib/diagnose/question/question_change.hpp"
-#include "lib/diagnose/question/question_reading.hpp"
+#include "lib/diagnose/question/check_interpretation.hpp"
+#include "lib/diagnose/question/find_column_change.hpp"
 #include "lib/diagnose/relation/relation_findings.hpp"
 #include "lib/diagnose/relation/tracking_findings.hpp"
 #include "lib/diagnose/verdict.hpp"
-#include "lib/log/recorder/mended_source.hpp"
+#include "lib/log/recorder/corrected_source.hpp"
 #include "lib/model/model_files.hpp"
 
 namespace faultline {
@@ -59,16 +59,17 @@ std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) 
     for (std::string& spot : tracking_spots(model, run.relations_judged_s)) spots.push_back(std::move(spot));
     return spots;
   }
-  for (auto& more : {resting_spots(run.log), blind_spots(model.robot.log.torque, run.log.has_velocity),
-                     relation_spots(model.relations, run.relations_judged_s),
-                     drive_limit_spots(model.relations, run.relations_beyond_s, model.robot.chain),
-                     weak_spots(model.validation), rough_spots(run.roughness),
-                     reach_sentences(model.validation.reach, model.robot.chain), least_size_sentences(model)})
+  for (auto& more :
+       {resting_spots(run.log), blind_spots(model.robot.log.torque, run.log.has_velocity),
+        relation_spots(model.relations, run.relations_judged_s),
+        drive_limit_spots(model.relations, run.relations_beyond_s, model.robot.chain),
+        weak_spots(model.validation), rough_spots(run.roughness),
+        detectability_sentences(model.validation.reach, model.robot.chain), least_size_sentences(model)})
     spots.insert(spots.end(), more.begin(), more.end());
   return spots;
 }
 
-void note_doubt(const ReadingDoubt& doubt, Issues& issues) {
+void note_mismatch(const LogMismatch& doubt, Issues& issues) {
   const bool is_of_columns = doubt.cure.ends_with("[log.columns]");
   issues.add(make_issue(
       kMisreadLog, Severity::severe,
@@ -80,7 +81,7 @@ void note_doubt(const ReadingDoubt& doubt, Issues& issues) {
 
 /// Whether a misfit between log and robot is held against the log: not if the robot did not even explain the
 /// logs that it was learned from.
-bool can_question(const Model& model) {
+bool can_check_columns(const Model& model) {
   return model.has_mechanics() && model.identification.status != IdentificationStatus::unexplained;
 }
 
@@ -90,17 +91,17 @@ bool can_question(const Model& model) {
 LogSource& settle_log(LogSource& log, const LogRate& rate, const Model& model, Issues& issues,
                       std::unique_ptr<LogSource>& kept) {
   if (!rate.is_models()) {
-    const ReadingDoubt clock = can_question(model)
-                                   ? question_clock(log, {model.robot, model.motion}, model.sample_period_s)
-                                   : ReadingDoubt{};
-    if (!clock.is_empty()) note_doubt(clock, issues);
+    const LogMismatch clock = can_check_columns(model)
+                                  ? check_clock(log, {model.robot, model.motion}, model.sample_period_s)
+                                  : LogMismatch{};
+    if (!clock.is_empty()) note_mismatch(clock, issues);
     if (!clock.is_empty() || !rate.can_be_resampled()) return log;
     issues.add(resampled_issue(rate, model));
   }
   LogSource& judged = judged_rows(log, model, issues, kept);
-  if (!can_question(model)) return judged;
-  if (const ReadingDoubt doubt = question_reading(judged, {model.robot, model.motion}); !doubt.is_empty())
-    note_doubt(doubt, issues);
+  if (!can_check_columns(model)) return judged;
+  if (const LogMismatch doubt = check_interpretation(judged, {model.robot, model.motion}); !doubt.is_empty())
+    note_mismatch(doubt, issues);
   return judged;
 }
 
@@ -130,19 +131,19 @@ bool are_explained(const std::vector<MonitoredEpisode>& episodes) {
          std::all_of(episodes.begin(), episodes.end(), [](const MonitoredEpisode& episode) {
            const FaultKind kind = episode.fault.claim.kind;
            return kind != FaultKind::unknown && kind != FaultKind::free_swinging &&
-                  episode.fault.left_share < kLittleLeft;
+                  episode.fault.residual_share < kLittleLeft;
          });
 }
 
 /// Adds a severe issue if the first fault may be a change of the log's columns. `has_log_rows`: the rows of
 /// `judged` are those of the log, not resampled.
-void question_faults(LogSource& judged, bool has_log_rows, const Model& model,
-                     const std::vector<FaultFinding>& faults, Issues& issues) {
+void check_column_change(LogSource& judged, bool has_log_rows, const Model& model,
+                         const std::vector<FaultFinding>& faults, Issues& issues) {
   if (faults.empty() || issues.find(kMisreadLog)) return;
   double onset_s = std::numeric_limits<double>::infinity();
   for (const FaultFinding& fault : faults)
     if (fault.onset_s < onset_s) onset_s = fault.onset_s;
-  const std::optional<ReadingChange> change = question_change(judged, {model.robot, model.motion}, onset_s);
+  const std::optional<ColumnChange> change = find_column_change(judged, {model.robot, model.motion}, onset_s);
   if (!change) return;
   const std::int64_t row = has_log_rows ? change->row : 0;
   issues.add({kChangedColumns, "", Severity::severe,
@@ -153,7 +154,7 @@ void question_faults(LogSource& judged, bool has_log_rows, const Model& model,
 }
 
 /// Makes a healthy verdict inconclusive if a joint could not be compared with a reference.
-void doubt_what_was_not_tracked(const std::vector<int>& joints, Diagnosis& diagnosis) {
+void require_tracking(const std::vector<int>& joints, Diagnosis& diagnosis) {
   if (diagnosis.verdict != Verdict::healthy || joints.empty()) return;
   diagnosis.verdict = Verdict::inconclusive;
   diagnosis.verdict_reason = fmt::format(
@@ -172,8 +173,8 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   const bool can_be_judged = rate.is_models() || doubts.find(kResampled);
   const MonitoredLog run = can_be_judged ? monitor(judged, model, options) : read_unjudged(log, model);
   std::vector<FaultFinding> faults = found_in(run, model, cases);
-  if (can_question(model) && !run.log.is_tracked && !are_explained(run.episodes))
-    question_faults(judged, &judged == &log, model, faults, doubts);
+  if (can_check_columns(model) && !run.log.is_tracked && !are_explained(run.episodes))
+    check_column_change(judged, &judged == &log, model, faults, doubts);
   end_with_run(run.log.runs, faults);
   Diagnosis diagnosis;
   diagnosis.log = run.log;
@@ -191,8 +192,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   settle_verdict(diagnosis, std::move(faults), model.sample_period_s, power_of(model.validation));
   if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;
   name_runs(diagnosis);
-  if (run.log.is_tracked)
-    doubt_what_was_not_tracked(joints_not_tracked(model, run.relations_judged_s), diagnosis);
+  if (run.log.is_tracked) require_tracking(joints_not_tracked(model, run.relations_judged_s), diagnosis);
   return diagnosis;
 }
 

@@ -11,7 +11,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kCalm_s = 1.0;          // a longer time between two findings separates two faults
+constexpr double kEpisodeGap_s = 1.0;    // a longer time between two findings separates two faults
 constexpr double kAtItsEnd_s = 0.3;      // a collision so near the end of a fault belongs to it
 constexpr double kShaking_s = 1.4;       // longest vibration of springs and a controller after an onset
 constexpr double kAfterShaking_s = 0.6;  // from its end to the onset of the lasting fault, at most
@@ -31,7 +31,7 @@ bool has_its_end(const FaultFinding& finding) {
 /// Whether the healthy time between the two is too short to separate two faults.
 bool follow_closely(const FaultFinding& earlier, const FaultFinding& later) {
   return later.decided_by != DecidedBy::criterion && !has_its_end(earlier) && !has_its_end(later) &&
-         !(later.onset_s > or_last(earlier.end_s) + kCalm_s);
+         !(later.onset_s > or_last(earlier.end_s) + kEpisodeGap_s);
 }
 
 /// Whether `later` is `earlier` again after a short pause, or a collision at its end. Unknown disturbances

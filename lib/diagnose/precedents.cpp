@@ -8,7 +8,7 @@
 
 #include "lib/cases/case_origin.hpp"
 #include "lib/cases/compare_cases.hpp"
-#include "lib/classify/feature_reading.hpp"
+#include "lib/classify/described_feature.hpp"
 
 namespace faultline {
 namespace {
@@ -37,10 +37,10 @@ std::vector<PrecedentFeature> told(const std::vector<FeatureMatch>& matches, con
   if (by.list.empty()) return out;
   for (const FeatureMatch& match : matches) {
     if (out.size() == kTold) break;
-    const FeatureReading here = read_feature(by.list, match.feature, by.basis.episode.features,
-                                             by.model.motion, by.model.robot.chain);
-    const FeatureReading there =
-        read_feature(by.list, match.feature, c.episode.features, by.model.motion, by.model.robot.chain);
+    const DescribedFeature here = describe_feature(by.list, match.feature, by.basis.episode.features,
+                                                   by.model.motion, by.model.robot.chain);
+    const DescribedFeature there =
+        describe_feature(by.list, match.feature, c.episode.features, by.model.motion, by.model.robot.chain);
     if (!std::isfinite(here.value) || !std::isfinite(there.value)) continue;
     out.push_back(
         {name_of(by.list[match.feature]), here.what, here.unit, here.value, there.value, match.difference});

@@ -10,7 +10,7 @@
 #include "lib/diagnose/least_size.hpp"
 #include "lib/diagnose/merge_faults.hpp"
 #include "lib/log/quality.hpp"
-#include "lib/log/recorder/mended_source.hpp"
+#include "lib/log/recorder/corrected_source.hpp"
 #include "lib/log/runs/judged_moment.hpp"
 
 namespace faultline {
@@ -40,7 +40,7 @@ std::string why_too_rough(const std::vector<double>& roughness) {
 
 /// States when the motion was so far from a fault-free one that something happened, although no fault
 /// explains it; empty if never.
-std::string why_too_wild(const std::vector<JointResidual>& residuals) {
+std::string why_large_residual(const std::vector<JointResidual>& residuals) {
   const auto worst = std::max_element(residuals.begin(), residuals.end(), [](const auto& a, const auto& b) {
     return !(a.velocity_peak >= b.velocity_peak);
   });
@@ -61,7 +61,7 @@ std::string why_too_damaged(const Issues& issues) {
 }
 
 /// States why the model cannot call any log healthy; empty if it can.
-std::string why_too_doubtful(const ModelFacts& model) {
+std::string why_unfit_model(const ModelFacts& model) {
   if (model.grave_doubts.empty()) return "";
   return fmt::format(
       "no fault was found, but this model cannot call a log healthy: {}; learn a model from logs that are "
@@ -86,7 +86,7 @@ std::string why_not_judged(const LogFacts& log) {
 }
 
 /// States that too little of the log could be explained; empty if it was enough.
-std::string why_too_thin(double judged_share) {
+std::string why_little_judged(double judged_share) {
   if (judged_share >= kFewestJudged) return "";
   return fmt::format(
       "no fault was found, but the regression could use only {:.0f} % of the log: it needs some seconds of "
@@ -122,9 +122,9 @@ std::string judged_part(const LogFacts& log) {
 /// States why a log in which no fault was found is not called healthy; empty if it is.
 std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
   if (const std::string damage = why_too_damaged(diagnosis.log.issues); !damage.empty()) return damage;
-  if (const std::string doubt = why_too_doubtful(diagnosis.model); !doubt.empty()) return doubt;
+  if (const std::string doubt = why_unfit_model(diagnosis.model); !doubt.empty()) return doubt;
   if (const std::string unjudged = why_not_judged(diagnosis.log); !unjudged.empty()) return unjudged;
-  if (const std::string thin = why_too_thin(diagnosis.judged_share); !thin.empty()) return thin;
+  if (const std::string thin = why_little_judged(diagnosis.judged_share); !thin.empty()) return thin;
   if (const std::string rest = why_at_rest(diagnosis.log); !rest.empty()) return rest;
   if (power < kLeastPower)
     return fmt::format(
@@ -132,7 +132,7 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
         "healthy logs that resemble each other more",
         kVerdictPercent * power);
   if (const std::string rough = why_too_rough(diagnosis.roughness); !rough.empty()) return rough;
-  if (const std::string wild = why_too_wild(diagnosis.residuals); !wild.empty()) return wild;
+  if (const std::string wild = why_large_residual(diagnosis.residuals); !wild.empty()) return wild;
   const std::string far = beyond_normal(diagnosis.condition, kFarBeyond);
   if (far.empty()) return "";
   return fmt::format(

@@ -75,7 +75,7 @@ std::vector<ExplainedFault> named_faults(const LogExplanation& e, const Evidence
     fault.evidence = best->gain;
     fault.misfit = evidence.misfit(*best);
     const double left = best->fit.mean_square(), scale = std::max(1.0, left);
-    fault.left_share = std::max(0.0, left - 1.0) / std::max(1.0, e.healthy_square - 1.0);
+    fault.residual_share = std::max(0.0, left - 1.0) / std::max(1.0, e.healthy_square - 1.0);
     for (auto h = best + 1; h != e.best.end(); ++h)
       if ((best->gain - h->gain) / scale < kAlmost || h->gain > kAlmostShare * best->gain)
         fault.could_also_be.push_back({h->kind, h->joint});
@@ -134,12 +134,13 @@ EvidenceLimits above_false_alarm(EvidenceLimits limits, const ExplainedFault& fa
   return limits;
 }
 
-bool leaves_much(const ExplainedFault& named) {
+bool has_large_misfit(const ExplainedFault& named) {
   return named.claim.kind != FaultKind::stuck_encoder && named.misfit > kOfNoKind;
 }
 
 bool suffices(const ExplainedFault& named) {
-  return !leaves_much(named) || (named.claim.kind == FaultKind::locked && named.left_share < kNearlyAll);
+  return !has_large_misfit(named) ||
+         (named.claim.kind == FaultKind::locked && named.residual_share < kNearlyAll);
 }
 
 std::optional<ExplainedFault> decide_log(const LogExplanation& e, const EvidenceLimits& limits,

@@ -57,7 +57,7 @@ struct ExplainedFault {
   double limit = 0.0;     ///< nats that the evidence had to exceed
   double misfit = 0.0;    ///< nats by which a free form explains the log better
   /// Excess of the mean square of the residuals over the noise, as a share of that without the fault.
-  double left_share = 0.0;
+  double residual_share = 0.0;
   std::vector<FaultLabel> could_also_be;  ///< explain the log almost as well
   std::vector<LabelScore> scores;         ///< of each kind and joint that was judged, best first
   EvidenceTrace trace;                    ///< of the best of them
@@ -100,7 +100,7 @@ inline constexpr double kOfNoKind = 200.0;  ///< nats of misfit above which a fa
 
 /// Returns whether the misfit of a fault is so large that there may be a further fault, or one of no known
 /// kind; never for a stuck encoder.
-bool leaves_much(const ExplainedFault& named);
+bool has_large_misfit(const ExplainedFault& named);
 
 /// Returns whether the fault alone explains the log: its misfit is small, or it is a lock with residuals that
 /// are a small share of those without it. A joint that halts shakes the robot in ways that no column

@@ -245,7 +245,7 @@ ExplainedFit explain_with_own_noise(const UniformLog& log, const BalanceModel& m
 
 double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& h) {
   const MatrixXd left = unstacked(h.fit.left, fit.joints());
-  const MatrixXd torque = unstacked(fit.left_without_fault(h.fit), fit.joints()) - left;
+  const MatrixXd torque = unstacked(fit.residual_without_fault(h.fit), fit.joints()) - left;
   const VectorXd power =
                      torque.unaryExpr([](double f) { return std::isnan(f) ? 0.0 : f * f; }).rowwise().sum(),
                  edges = fault_edges(fit.rows(), fit.model().setting, h);
@@ -274,7 +274,7 @@ double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& 
 }
 
 EvidenceCourse evidence_course(const LogFit& fit, const FaultHypothesis& h) {
-  const Stacked without = fit.left_without_fault(h.fit);
+  const Stacked without = fit.residual_without_fault(h.fit);
   const double edge = reach_s(fit.model().setting);
   EvidenceCourse out;
   double sum = h.at_onset;

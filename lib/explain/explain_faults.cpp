@@ -48,7 +48,7 @@ std::vector<DayEffect> effects_of(const LogFit& fit) {
 }
 
 /// Returns the standard deviation of the rows of each joint over that of the healthy logs' rows.
-std::vector<double> loudness_of(const LogFit& fit) {
+std::vector<double> noise_levels(const LogFit& fit) {
   std::vector<double> out;
   for (int j = 0; j < fit.joints(); ++j)
     out.push_back(
@@ -76,7 +76,7 @@ double residual_of_known(const LogFit& fit) {
   for (FaultClaim claim : fit.known()) {
     claim.onset_s = std::max(claim.onset_s, fit.log().start_s);
     claim.end_s = std::min(claim.end_s, claim.onset_s + kAsOne_s);
-    const LeftWithin left = left_within(fit, claim, fit.healthy());
+    const ResidualWithin left = residual_within(fit, claim, fit.healthy());
     if (const double rows = left.rows.sum(); rows > 0.0)
       out = std::max(out, left.rows.dot(left.square) / rows);
   }
@@ -113,7 +113,8 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
                        [&](const FaultClaim& claim) { return begin_as_one(claim, fault.claim); });
   });
   NextFault out{std::move(named)};
-  for (const ExplainedFault& fault : out.named) out.spans.push_back(fault_spans(fit, fault.claim, e.free_form));
+  for (const ExplainedFault& fault : out.named)
+    out.spans.push_back(fault_spans(fit, fault.claim, e.free_form));
   if (out.named.empty() && known.empty())
     if (const std::optional<ExplainedFault> unnamed = unnamed_fault(e, limits, evidence)) {
       out.named = {*unnamed};
@@ -124,7 +125,7 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   if (!out.named.empty())
     out.unknown = as_unknown(out.named.front(), e, evidence);
   else
-    out.rest = {.day = effects_of(fit), .loudness = loudness_of(fit), .judged_s = judged_s(fit)};
+    out.rest = {.day = effects_of(fit), .loudness = noise_levels(fit), .judged_s = judged_s(fit)};
   return out;
 }
 
@@ -137,25 +138,21 @@ std::vector<FaultClaim> claims_but(const std::vector<ExplainedFault>& faults, st
   return out;
 }
 
-/// Judges each fault again with all others known, the weakest first, and drops it if they explain the log
-/// without it. `before` are known and stay.
-std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& model,
-                                    const EvidenceLimits& limits, const std::vector<FaultClaim>& before,
-                                    std::vector<ExplainedFault> faults) {
-  std::stable_sort(faults.begin(), faults.end(),
-                   [](const ExplainedFault& a, const ExplainedFault& b) { return a.evidence < b.evidence; });
-  const RowNoise noise = LogFit(log, model, claims_but(faults, faults.size(), before)).noise();
+/// Judges each fault again with all others known, in order, and drops it if they explain the log without it.
+std::vector<ExplainedFault> judged_beside(const UniformLog& log, const BalanceModel& model,
+                                          const EvidenceLimits& limits, const std::vector<FaultClaim>& before,
+                                          const RowNoise& noise, std::vector<ExplainedFault> faults) {
   for (std::size_t k = 0; k < faults.size();) {
     const LogFit fit(log, model, claims_but(faults, k, before), noise);
     LogExplanation e = explain_log(fit);
-    const std::optional<FaultHypothesis> first = judge(fit, faults[k].claim);
-    const double gain = first ? first->gain : 0.0;
-    if (first) {
-      e.best.push_back(*first);
-      e.best = best_of_each(e.best);
-    }
+    JudgedHypotheses own{fit, {}};
+    if (const FaultHypothesis* first = own.go(faults[k].claim)) refine(FaultHypothesis(*first), own);
+    e.best.insert(e.best.end(), own.judged.begin(), own.judged.end());
+    e.best = best_of_each(e.best);
+    double gain = 0.0;
+    for (const FaultHypothesis& h : own.judged) gain = std::max(gain, h.gain);
     const std::vector<ExplainedFault> again = named_faults(e, limits, log_evidence(fit, e), 1);
-    if (!again.empty() && !leaves_much(again[0])) {
+    if (!again.empty() && !has_large_misfit(again[0])) {
       faults[k] = again[0];
     } else if (gain <= limits.of(faults[k].claim.kind)) {
       faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(k));
@@ -165,6 +162,21 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
     ++k;
   }
   return faults;
+}
+
+/// Judges each fault again with all others known, the weakest first, and drops it if they explain the log
+/// without it. A fault that leaves much beside another one's first onset and end is judged once more beside
+/// their estimates. `before` are known and stay.
+std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& model,
+                                    const EvidenceLimits& limits, const std::vector<FaultClaim>& before,
+                                    std::vector<ExplainedFault> faults) {
+  std::stable_sort(faults.begin(), faults.end(),
+                   [](const ExplainedFault& a, const ExplainedFault& b) { return a.evidence < b.evidence; });
+  const RowNoise noise = LogFit(log, model, claims_but(faults, faults.size(), before)).noise();
+  faults = judged_beside(log, model, limits, before, noise, std::move(faults));
+  const auto poor = std::count_if(faults.begin(), faults.end(), &has_large_misfit);
+  if (poor == 0 || poor == static_cast<std::ptrdiff_t>(faults.size())) return faults;
+  return judged_beside(log, model, limits, before, noise, std::move(faults));
 }
 
 /// Returns the first of the `most` best named faults that comes and goes and explains the log by this: as a
@@ -181,7 +193,7 @@ std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceM
       out.back().misfit = std::numeric_limits<double>::infinity();  // until it is judged
     }
     out = jointly(log, model, limits, known, std::move(out));
-    if (out.size() > 1 && std::none_of(out.begin(), out.end(), &leaves_much)) return out;
+    if (out.size() > 1 && std::none_of(out.begin(), out.end(), &has_large_misfit)) return out;
   }
   return {};
 }
@@ -211,7 +223,7 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
       if (!repeated.empty()) return repeated;
       together.push_back(another.named.front());
       if (together.back().claim.kind == FaultKind::unknown) break;
-      if (!leaves_much(together.back())) return together;
+      if (!has_large_misfit(together.back())) return together;
     }
   }
   return {suffices(alone) ? alone : next.unknown};

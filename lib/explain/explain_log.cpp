@@ -17,7 +17,7 @@ constexpr int kFewestCoarse = 20;    // samples of a log below 50 Hz
 constexpr int kAtTheStart = 2;       // samples after the earliest onset: a fault that begins with the log
 
 /// Returns by joint the root mean square of the whitened residuals of the healthy robot.
-std::vector<double> loudness_of(const CoarseLog& log) {
+std::vector<double> noise_levels(const CoarseLog& log) {
   const int n = log.joints();
   std::vector<double> out;
   for (int j = 0; j < n; ++j)
@@ -38,15 +38,15 @@ ExplainedFault with_first_strike(ExplainedFault fault, const CoarseLog& log) {
 
 /// Returns whether the best explanation has larger residuals than noise and smoothing does not converge: a
 /// robot that runs away is far from linear in its torques, so that hypotheses are misjudged there.
-bool runs_away(const CoarseLog& log, const LogExplanation& e) {
-  return log.settled < log.samples() && !e.best.empty() && e.best.front().fit.mean_square() > kMuchLeft;
+bool is_divergent(const CoarseLog& log, const LogExplanation& e) {
+  return log.settled < log.samples() && !e.best.empty() && e.best.front().fit.mean_square() > kLargeResidual;
 }
 
 /// Explains a log by one fault at most. An unknown fault that begins with the log is not reported: the model
 /// may not fit the log from its first row on, which the noise level of the log shows.
 ExplainedLog explained_coarse(const CoarseLog& log, const EvidenceLimits& limits) {
   const LogExplanation e = explain_coarse(log);
-  if (runs_away(log, e))
+  if (is_divergent(log, e))
     if (const std::optional<CoarseLog> before = settled_part(log))
       if (ExplainedLog out = explained_coarse(*before, limits); !out.faults.empty()) return out;
   std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(log, e));
@@ -57,7 +57,7 @@ ExplainedLog explained_coarse(const CoarseLog& log, const EvidenceLimits& limits
   if (fault->claim.kind == FaultKind::unknown) {
     fault = with_first_strike(std::move(*fault), log);
     if (fault->claim.onset_s <= log.time_s(log.first_onset() + kAtTheStart)) {
-      out.loudness = loudness_of(log);
+      out.loudness = noise_levels(log);
       return out;
     }
   }

@@ -33,7 +33,7 @@ struct FaultClaim {
 };
 
 /// Returns whether a fault falsifies the measured position and does not change the motion.
-inline bool reads_wrong(FaultKind kind) {
+inline bool falsifies_position(FaultKind kind) {
   return kind == FaultKind::sensor_bias || kind == FaultKind::sensor_drift;
 }
 

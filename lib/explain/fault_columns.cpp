@@ -179,7 +179,7 @@ namespace {
 
 /// Replaces velocities around a jump, which the controller computed from the position, by differences of the
 /// positions without the jump.
-JointReading with_mended_velocity(JointReading reading, const UniformLog& log, double jump_s) {
+MeasuredMotion with_repaired_velocity(MeasuredMotion reading, const UniformLog& log, double jump_s) {
   const int rows = log.rows();
   for (int k = 0; k < rows; ++k) {
     if (log.time_s(k) < jump_s - kVelocityBefore_s || log.time_s(k) > jump_s + kVelocityAfter_s) continue;
@@ -191,8 +191,8 @@ JointReading with_mended_velocity(JointReading reading, const UniformLog& log, d
 
 }  // namespace
 
-JointReading without_false_reading(const UniformLog& log, const FaultClaim& claim) {
-  JointReading out = reading_of(log, claim.joint - 1);
+MeasuredMotion without_position_error(const UniformLog& log, const FaultClaim& claim) {
+  MeasuredMotion out = reading_of(log, claim.joint - 1);
   const bool shows_in_velocity = out.dq.size() > 0 && !claim.velocity_is_true;
   const double size = claim.size[0];
   for (int k = 0; k < log.rows(); ++k) {
@@ -207,7 +207,7 @@ JointReading without_false_reading(const UniformLog& log, const FaultClaim& clai
   }
   if (claim.kind == FaultKind::sensor_bias && shows_in_velocity)
     for (const double jump_s : {claim.onset_s, claim.end_s})
-      out = with_mended_velocity(std::move(out), log, jump_s);
+      out = with_repaired_velocity(std::move(out), log, jump_s);
   return out;
 }
 
@@ -227,10 +227,10 @@ VectorXd form_shares(const BalanceRows& rows, const RowSetting& setting, const F
   });
 }
 
-UniformLog without_false_readings(UniformLog log, const std::vector<FaultClaim>& known) {
+UniformLog without_position_errors(UniformLog log, const std::vector<FaultClaim>& known) {
   for (const FaultClaim& claim : known) {
-    if (!reads_wrong(claim.kind)) continue;
-    const JointReading mended = without_false_reading(log, claim);
+    if (!falsifies_position(claim.kind)) continue;
+    const MeasuredMotion mended = without_position_error(log, claim);
     log.q.col(claim.joint - 1) = mended.q;
     if (mended.dq.size() > 0) log.dq.col(claim.joint - 1) = mended.dq;
   }

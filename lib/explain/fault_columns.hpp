@@ -56,7 +56,7 @@ Eigen::VectorXd soft_step(const BalanceRows& rows, const RowSetting& setting, do
 /// the joints that its motion reaches, all rows of an unknown fault.
 StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& model, const FaultClaim& claim);
 
-inline constexpr double kChangeDoubt_rows = 0.6;  ///< standard deviation of the time of a work piece's change
+inline constexpr double kChangeStd_rows = 0.6;  ///< standard deviation of the time of a work piece's change
 
 /// Converts a stacked value to rows x joints, and back.
 Eigen::MatrixXd unstacked(const Stacked& values, int joints);
@@ -77,8 +77,8 @@ double form_share(FaultKind kind);
 Eigen::VectorXd form_shares(const BalanceRows& rows, const RowSetting& setting, const FaultClaim& claim);
 
 /// Returns the measurements of the joint without the false reading of the claim, which has a size.
-JointReading without_false_reading(const UniformLog& log, const FaultClaim& claim);
+MeasuredMotion without_position_error(const UniformLog& log, const FaultClaim& claim);
 /// Returns the log without all false readings among the claims.
-UniformLog without_false_readings(UniformLog log, const std::vector<FaultClaim>& claims);
+UniformLog without_position_errors(UniformLog log, const std::vector<FaultClaim>& claims);
 
 }  // namespace faultline

@@ -88,14 +88,14 @@ std::optional<double> end_of(const LogFit& fit, const KnownFault& fault) {
   const double from_s = std::max(fit.log().time_s(0), claim.onset_s + reach_s(fit.model().setting));
   if (claim.kind == FaultKind::locked) return moves_from(fit, claim.joint - 1, from_s);
   if (claim.kind == FaultKind::stuck_encoder) return reads_again_from(fit, claim.joint - 1, from_s);
-  if (reads_wrong(claim.kind))
+  if (falsifies_position(claim.kind))
     if (const std::optional<double> back = taken_back_at(fit, claim)) return back;
-  return gone_from(fit, with_and_without(fit, fault, from_s + kSurelyLasts_s), from_s);
+  return absent_from_s(fit, with_and_without(fit, fault, from_s + kSurelyLasts_s), from_s);
 }
 
 }  // namespace
 
-std::optional<double> gone_from(const LogFit& fit, const WithAndWithout& left, double from_s) {
+std::optional<double> absent_from_s(const LogFit& fit, const WithAndWithout& left, double from_s) {
   double square = 0.0, count = 0.0;
   for (const double z : left.with)
     if (!std::isnan(z)) square += z * z, count += 1.0;
@@ -128,7 +128,7 @@ std::vector<FaultClaim> followed(const UniformLog& log, const BalanceModel& mode
     if (claim.end_s < kNeverEnds) continue;
     if (const std::optional<double> end_s = end_of(fit, fault))
       claim.end_s = *end_s;
-    else if (reads_wrong(claim.kind))
+    else if (falsifies_position(claim.kind))
       claim.size += fit.healthy().day.segment(fault.begin, fault.sizes());
   }
   return lasting;

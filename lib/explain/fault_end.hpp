@@ -24,7 +24,7 @@ struct WithAndWithout {
 /// docs/how-it-works.md): the evidence of its absence since then (a cumulative sum; Page 1954) is large
 /// compared with the residuals, and most of what its torque could give. A fault that goes on in another form
 /// than its columns gives less.
-std::optional<double> gone_from(const LogFit& fit, const WithAndWithout& left, double from_s);
+std::optional<double> absent_from_s(const LogFit& fit, const WithAndWithout& left, double from_s);
 
 /// Returns faults that lasted when the log began, as an earlier part of it has shown them, with their ends if
 /// this part shows that they are gone. A false reading grows while it drifts, so its size is estimated anew;

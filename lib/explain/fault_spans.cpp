@@ -46,7 +46,7 @@ Explanation explained(const LogFit& fit, const LinearFault& fault, const std::ve
 /// Returns the fit with the effects of the day that explain the log best beside the fault.
 SpanFit fit_with_day(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans) {
   const Explanation e = explained(fit, fault, spans);
-  return {e.size, fit.left_without_fault(e), e.mean_square()};
+  return {e.size, fit.residual_without_fault(e), e.mean_square()};
 }
 
 /// Returns the fit with the effects of the day that the rows before the change show.

@@ -78,7 +78,7 @@ void add_row(const Eigen::Ref<const VectorXd>& effects, double white, JointRows&
 }
 
 /// Returns the sum of squared residuals of the rows with these effects of the day.
-double square_left(const JointRows& joint, const VectorXd& day) {
+double squared_residual(const JointRows& joint, const VectorXd& day) {
   const VectorXd some = day(joint.reach);
   return joint.sums.square - 2.0 * some.dot(joint.sums.vector) + some.dot(joint.sums.matrix * some);
 }
@@ -90,10 +90,10 @@ struct CostOfJoint {
 };
 
 CostOfJoint cost_of_joint(const JointRows& all, const JointRows& before, const VectorXd& day) {
-  const double seen = before.sums.rows, rest = all.sums.rows - seen, square = square_left(before, day),
+  const double seen = before.sums.rows, rest = all.sums.rows - seen, square = squared_residual(before, day),
                variance = std::max(1.0, (kRowsOfHealthyLogs + square) / (kRowsOfHealthyLogs + seen)),
                row = 0.5 * elementary::log(variance), costs_before = seen * row + 0.5 * square / variance;
-  return {costs_before + rest * row + 0.5 * (square_left(all, day) - square) / variance,
+  return {costs_before + rest * row + 0.5 * (squared_residual(all, day) - square) / variance,
           costs_before + rest * (row + kFreeRowCost)};
 }
 

@@ -105,7 +105,7 @@ bool velocity_shows_rest(const LogFit& fit, const FaultClaim& claim) {
 /// while a joint is locked: its halt shakes an arm on soft springs, which the model does not describe. At
 /// most a share of the evidence of the lock: residuals of another fault are no shaking.
 double slack_of_halt(const LogFit& fit, const FaultClaim& claim, const Explanation& e, double gain) {
-  const LeftWithin left = left_within(fit, claim, e);
+  const ResidualWithin left = residual_within(fit, claim, e);
   double slack = 0.0;
   for (int j = 0; j < fit.joints(); ++j) {
     const double rows = left.rows[j], square = left.square[j];
@@ -163,7 +163,7 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
   const StackedMask dropped = silent_rows(fit.rows(), m, claim);
   const auto lost = static_cast<double>(std::count(dropped.begin(), dropped.end(), true));
   const auto [samples, same, same_before] = repeats_in(fit, claim);
-  const bool telling = repeats_say_something(m, j) && same_before < kComesToRest;
+  const bool telling = repeats_are_rare(m, j) && same_before < kComesToRest;
   double price = kForcedRow * lost;
   if (claim.kind == FaultKind::locked) {
     const std::vector<int> within = rows_within(fit, claim);
@@ -252,23 +252,24 @@ FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
 }
 
 /// Sizes of a false reading, rad or m; of a drift in each second.
-struct ReadingSize {
+struct PositionErrorSize {
   double usual = 0.0;  ///< prior standard deviation
   double step = 0.0;   ///< of its numeric derivative
 };
 
-ReadingSize reading_size(const LogFit& fit, const FaultClaim& claim) {
+PositionErrorSize position_error_size(const LogFit& fit, const FaultClaim& claim) {
   const bool slide = fit.model().rigid.chain.geometry[claim.joint - 1].kind == AxisKind::prismatic;
-  if (claim.kind == FaultKind::sensor_bias) return slide ? ReadingSize{0.02, 2e-4} : ReadingSize{0.1, 1e-3};
-  return slide ? ReadingSize{0.03, 4e-4} : ReadingSize{0.1, 2e-3};
+  if (claim.kind == FaultKind::sensor_bias)
+    return slide ? PositionErrorSize{0.02, 2e-4} : PositionErrorSize{0.1, 1e-3};
+  return slide ? PositionErrorSize{0.03, 4e-4} : PositionErrorSize{0.1, 2e-3};
 }
 
 /// Judges a false reading: corrects the trajectory and computes the residual anew, linear in the size between
 /// the last two sizes (the secant method), until the size is settled. A claim without a size starts from
 /// zero.
-FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
+FaultHypothesis judge_position_error(const LogFit& fit, FaultClaim claim) {
   const bool bias = claim.kind == FaultKind::sensor_bias;
-  const auto [usual, step] = reading_size(fit, claim);
+  const auto [usual, step] = position_error_size(fit, claim);
   FaultHypothesis best;
   best.gain = -std::numeric_limits<double>::infinity();
   double size = claim.size.size() > 0 ? claim.size[0] : 0.0;
@@ -306,18 +307,18 @@ FaultHypothesis judge_reading(const LogFit& fit, FaultClaim claim) {
 /// Judges a false position that the velocity shows, too, or does not if it is measured independently.
 FaultHypothesis judge_position(const LogFit& fit, FaultClaim claim) {
   const bool is_one = fit.log().dq.rows() == 0 || fit.model().setting.velocity_is_difference;
-  FaultHypothesis best = judge_reading(fit, claim);
+  FaultHypothesis best = judge_position_error(fit, claim);
   if (claim.velocity_is_true || is_one) return best;
   claim.velocity_is_true = true;
-  FaultHypothesis other = judge_reading(fit, claim);
+  FaultHypothesis other = judge_position_error(fit, claim);
   return other.gain > best.gain ? other : best;
 }
 
 }  // namespace
 
 FaultColumns columns_about_healthy(const LogFit& fit, const FaultClaim& claim) {
-  if (!reads_wrong(claim.kind)) return columns_of(fit, claim);
-  const auto [usual, step] = reading_size(fit, claim);
+  if (!falsifies_position(claim.kind)) return columns_of(fit, claim);
+  const auto [usual, step] = position_error_size(fit, claim);
   const Stacked without =
       claim.kind == FaultKind::sensor_bias ? residual_without(fit, claim, 0.0) : fit.residual();
   return {StackedColumns((without - residual_without(fit, claim, step)) / step),

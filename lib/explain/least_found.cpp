@@ -49,7 +49,7 @@ FaultClaim claim_of(const FaultLabel& label, double onset_s) {
 }
 
 SizeKnowledge knowledge(const LogFit& fit, const FaultClaim& claim) {
-  const bool is_linear = claim.kind != FaultKind::collision && !reads_wrong(claim.kind);
+  const bool is_linear = claim.kind != FaultKind::collision && !falsifies_position(claim.kind);
   if (is_linear && linear_of(fit.linear(), claim) == nullptr) return {};
   const FaultColumns columns = columns_about_healthy(fit, claim);
   return {fit.explain(fit.residual(), columns, {}).size_covariance, columns.variance};
@@ -61,8 +61,8 @@ SizeKnowledge knowledge(const CoarseLog& log, const FaultClaim& claim) {
                           claim.onset_s,
                           claim.end_s < kNeverEnds ? claim.end_s - claim.onset_s : 0.0,
                           {}};
-  const VectorXd std = reads_wrong(claim.kind)
-                           ? VectorXd::Constant(1, usual_reading_error(*log.model, claim.joint - 1))
+  const VectorXd std = falsifies_position(claim.kind)
+                           ? VectorXd::Constant(1, prior_position_error(*log.model, claim.joint - 1))
                            : fault_directions(*log.model, claim.kind, claim.joint).std;
   return {judge_coarse(log, guess, {}).size_covariance, std.cwiseAbs2()};
 }

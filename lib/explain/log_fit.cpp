@@ -19,12 +19,13 @@ using Eigen::VectorXd;
 
 constexpr double kForgotten = 1e-9;    // share of a change of a velocity: rows with less count as unchanged
 constexpr double kSilent = 1e6;        // times the standard deviation: a silent row
-constexpr double kReadingDoubt = 0.1;  // share of a false reading's size: its error once corrected (std)
+constexpr double kCorrectedStd = 0.1;  // share of a false reading's size: its error once corrected (std)
 constexpr double kSizeDoubt = 0.05;    // the same of a fault that began before the log
 constexpr int kNoiseRounds = 3;        // rounds that estimate the log's own noise, at most
 
-constexpr double kModelShare = 0.004;                // share of each model term: error of the model
-constexpr double kLeastLoud = 0.3, kMostLoud = 4.0;  // bounds of the noise, times that of the healthy logs
+constexpr double kModelShare = 0.004;  // share of each model term: error of the model
+constexpr double kLeastNoiseLevel = 0.3,
+                 kMostNoiseLevel = 4.0;  // bounds of the noise, times that of the healthy logs
 
 /// Rows that count for the noise in any case: s, and share of the log, from its first motion on, or from its
 /// start if it changes before. A log at rest does not show its noise.
@@ -54,7 +55,7 @@ VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
 
 /// Returns the size beyond which a row after a change belongs to a fault and is no noise: far above most rows
 /// of the log's motion.
-double loudest_noise(const Eigen::Ref<const VectorXd>& rows, double usual) {
+double largest_noise(const Eigen::Ref<const VectorXd>& rows, double usual) {
   const VectorXd size = rows.cwiseAbs();
   const double most = upper_quantile({size.begin(), size.end()}, kMostRows);
   return kFarLouder * std::max(usual, std::isnan(most) ? 0.0 : most);
@@ -70,13 +71,13 @@ double first_motion_s(const LogFit& fit) {
 }
 
 /// Returns the white noise of a log over that of the healthy logs, by joint.
-VectorXd row_loudness(const UniformLog& log, const BalanceModel& model) {
+VectorXd row_noise_level(const UniformLog& log, const BalanceModel& model) {
   const bool by_position = model.setting.velocity_is_difference || log.dq.rows() == 0;
   const VectorXd& now = by_position ? log.q_noise : log.dq_noise;
   const VectorXd& usual = by_position ? model.q_noise : model.dq_noise;
   VectorXd out(now.size());
   for (int j = 0; j < out.size(); ++j)
-    out[j] = std::clamp(usual[j] > 0.0 ? now[j] / usual[j] : 1.0, kLeastLoud, kMostLoud);
+    out[j] = std::clamp(usual[j] > 0.0 ? now[j] / usual[j] : 1.0, kLeastNoiseLevel, kMostNoiseLevel);
   return out;
 }
 
@@ -108,7 +109,7 @@ RowNoise own_noise(const LogFit& fit) {
     const VectorXd std = fit.std().col(j);
     VectorXd scaled = torque.segment(j * fit.count(), rows).cwiseQuotient(std.head(rows));
     const VectorXd usual = autocovariance(noise);
-    const double loudest = loudest_noise(scaled.tail(rows - moving), std::sqrt(usual[0]));
+    const double loudest = largest_noise(scaled.tail(rows - moving), std::sqrt(usual[0]));
     double count = kRowsOfHealthyLogs;
     for (int k = 0; k < rows; ++k) {
       const bool is_fault = k >= changed && std::abs(scaled[k]) > loudest;
@@ -124,7 +125,7 @@ RowNoise own_noise(const LogFit& fit) {
 
 /// Returns the column of the remaining error of a false reading that was corrected.
 FaultColumns reading_column(const LogFit& fit, const FaultClaim& claim) {
-  const double doubt = kReadingDoubt * std::abs(claim.size[0]);
+  const double doubt = kCorrectedStd * std::abs(claim.size[0]);
   return {StackedColumns((fit.residual() - residual_without(fit, claim, doubt)) / doubt),
           VectorXd::Constant(1, doubt * doubt)};
 }
@@ -133,7 +134,7 @@ FaultColumns reading_column(const LogFit& fit, const FaultClaim& claim) {
 
 Stacked residual_without(const LogFit& fit, FaultClaim claim, double size) {
   claim.size = VectorXd::Constant(1, size);
-  return fit.residual_of(without_false_reading(fit.log(), claim), claim.joint - 1, claim.onset_s);
+  return fit.residual_of(without_position_error(fit.log(), claim), claim.joint - 1, claim.onset_s);
 }
 
 FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim) {
@@ -149,8 +150,8 @@ double Explanation::mean_square() const {
   return count > 0.0 ? sum / count : 1.0;
 }
 
-LeftWithin left_within(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
-  LeftWithin out{VectorXd::Zero(fit.joints()), VectorXd::Zero(fit.joints())};
+ResidualWithin residual_within(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
+  ResidualWithin out{VectorXd::Zero(fit.joints()), VectorXd::Zero(fit.joints())};
   for (int k = 0; k < fit.count(); ++k) {
     if (fit.time_s()[k] <= claim.onset_s || fit.time_s()[k] >= claim.end_s) continue;
     for (int j = 0; j < fit.joints(); ++j) {
@@ -168,11 +169,11 @@ LeftWithin left_within(const LogFit& fit, const FaultClaim& claim, const Explana
 LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim> known,
                const std::optional<RowNoise>& noise)
     : known_(std::move(known)),
-      log_(without_false_readings(std::move(log), known_)),
+      log_(without_position_errors(std::move(log), known_)),
       model_(model),
       rows_(balance_rows(log_, model.setting, model.rigid, model.theta)),
       reading_(log_, model.setting, model.rigid, model.theta),
-      loudness_(row_loudness(log_, model)),
+      noise_level_(row_noise_level(log_, model)),
       noise_(noise ? *noise : model.noise) {
   const ColumnLayout layout = model.layout();
   tip_ = payload_torque(rows_, model.payload, joints() - 1);
@@ -188,7 +189,7 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
                     model.theta.segment(layout.spring(0), joints());
   spring_ = stacked(spring);
   known_torque_ = Stacked::Zero(residual_.size());
-  std_ = row_deviation(rows_, model, loudness_);
+  std_ = row_deviation(rows_, model, noise_level_);
   linear_ = linear_faults(rows_, model);
   effect_column_ = day_columns(rows_, model);
   effect_variance_ = model.day_variance;
@@ -200,7 +201,7 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
       silent_.resize(rows.size(), false);
       for (std::size_t i = 0; i < rows.size(); ++i)
         silent_[i] = silent_[i] || rows[i] || edge[static_cast<Eigen::Index>(i) % count()] > 0.0;
-    } else if (reads_wrong(claim.kind)) {
+    } else if (falsifies_position(claim.kind)) {
       add_fault(reading_column(*this, claim), claim);
     } else {
       add_fault(columns_of(*this, claim), claim);
@@ -226,7 +227,7 @@ void LogFit::loosen_halts() {
   MatrixXd louder = MatrixXd::Ones(count(), joints());
   for (const FaultClaim& claim : known_) {
     if (claim.kind != FaultKind::locked) continue;
-    const VectorXd factor = left_within(*this, claim, healthy_).square.cwiseMax(1.0).cwiseSqrt();
+    const VectorXd factor = residual_within(*this, claim, healthy_).square.cwiseMax(1.0).cwiseSqrt();
     for (int k = 0; k < count(); ++k)
       if (time_s()[k] > claim.onset_s && time_s()[k] < claim.end_s)
         louder.row(k) = louder.row(k).cwiseMax(factor.transpose());
@@ -248,7 +249,7 @@ void LogFit::whiten_effects() {
 /// Adds a known fault as an effect whose size is estimated; the form error of its columns is noise.
 void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
   const Stacked torque = columns.column * claim.size;
-  if (!reads_wrong(claim.kind)) {
+  if (!falsifies_position(claim.kind)) {
     known_torque_ += torque;
     residual_ -= torque;
   }
@@ -257,7 +258,7 @@ void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
   std_ = (std_.array().square() + inexact.array().square()).sqrt();
   const Eigen::Index effects = effect_variance_.size();
   effect_variance_.conservativeResize(effects + columns.sizes());
-  const bool is_compared = claim.onset_s >= log_.start_s || reads_wrong(claim.kind);
+  const bool is_compared = claim.onset_s >= log_.start_s || falsifies_position(claim.kind);
   effect_variance_.tail(columns.sizes()) =
       is_compared ? columns.variance
                   : VectorXd((kSizeDoubt * claim.size).cwiseAbs2() + 1e-6 * columns.variance);
@@ -300,7 +301,7 @@ FaultColumns LogFit::between(const FaultColumns& columns, double onset_s, double
   return faultline::between(columns, rows_, model_.setting, onset_s, end_s);
 }
 
-Stacked LogFit::residual_of(const JointReading& moved, int joint, double from_s) const {
+Stacked LogFit::residual_of(const MeasuredMotion& moved, int joint, double from_s) const {
   const double unmoved_s = from_s - reach_s(model_.setting) - velocity_reach_s(model_.setting, kForgotten);
   const int first = std::min(first_row(unmoved_s), count() - 1);
   const MatrixXd after = reading_.of(moved, joint, first);
@@ -336,7 +337,7 @@ Stacked LogFit::piece_torque(const VectorXd& level) const {
   return stacked(model_.piece_kg * (tip_.array().colwise() * level.array()).matrix());
 }
 
-Stacked LogFit::left_without_fault(const Explanation& e) const {
+Stacked LogFit::residual_without_fault(const Explanation& e) const {
   Stacked torque = residual_ - day_torque(e.day);
   if (e.piece_level.size() > 0) torque -= piece_torque(e.piece_level);
   return whitened(torque);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/balance/balance_model.hpp"
-#include "lib/balance/reading_residual.hpp"
+#include "lib/balance/measured_residual.hpp"
 #include "lib/balance/regress.hpp"
 #include "lib/balance/uniform_log.hpp"
 #include "lib/balance/work_piece.hpp"
@@ -63,13 +63,13 @@ class LogFit {
   const Eigen::VectorXd& time_s() const { return rows_.time_s; }
   /// Returns the first row at or after a time; count() if there is none.
   int first_row(double time_s) const;
-  const Eigen::VectorXd& loudness() const { return loudness_; }
+  const Eigen::VectorXd& loudness() const { return noise_level_; }
   /// Standard deviation of each row, rows x joints.
   const Eigen::MatrixXd& std() const { return std_; }
   /// Residual torque of robot and known faults, before the effects.
   const Stacked& residual() const { return residual_; }
   /// Returns the residual of a log with other measurements of joint `joint` (from 0) from `from_s` on.
-  Stacked residual_of(const JointReading& moved, int joint, double from_s) const;
+  Stacked residual_of(const MeasuredMotion& moved, int joint, double from_s) const;
   const std::vector<LinearFault>& linear() const { return linear_; }
   /// Columns of the effects of every hypothesis: those of the day (DayLayout), then the sizes of the known
   /// faults. By joint: rows x effects.
@@ -101,7 +101,7 @@ class LogFit {
   Stacked piece_torque(const Eigen::VectorXd& level) const;
   /// Returns the whitened residuals of an explanation without its fault, but with its effects of the day and
   /// its work piece.
-  Stacked left_without_fault(const Explanation& explanation) const;
+  Stacked residual_without_fault(const Explanation& explanation) const;
   /// Returns the effects of the day, estimated from the rows before `time_s`.
   Eigen::VectorXd day_before(double time_s) const;
   /// Returns the columns of a fault while it lasts.
@@ -136,8 +136,8 @@ class LogFit {
   UniformLog log_;
   const BalanceModel& model_;
   BalanceRows rows_;
-  ReadingResidual reading_;
-  Eigen::VectorXd loudness_;
+  MeasuredResidual reading_;
+  Eigen::VectorXd noise_level_;
   RowNoise noise_;
   Eigen::MatrixXd std_, tip_;
   Stacked residual_, spring_;
@@ -156,10 +156,10 @@ class LogFit {
 
 /// For each joint: the number of rows between onset and end of a claim that have weight in an explanation,
 /// and the mean square of their whitened residuals; 1 without such rows.
-struct LeftWithin {
+struct ResidualWithin {
   Eigen::VectorXd rows, square;
 };
-LeftWithin left_within(const LogFit& fit, const FaultClaim& claim, const Explanation& e);
+ResidualWithin residual_within(const LogFit& fit, const FaultClaim& claim, const Explanation& e);
 
 /// Returns the residual of the log after the correction of a false reading of that size.
 Stacked residual_without(const LogFit& fit, FaultClaim claim, double size);

@@ -12,12 +12,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSaysNothing = 1e9;  // N m or N: standard deviation of a row without weight
-constexpr double kGravity = 9.81;     // m/s^2: only for the scale of a work piece's weight
-constexpr double kMostOfDay = 12.0;   // prior standard deviations: bound of an effect of the day
-constexpr double kHeld = 1e12;        // times its precision: of an effect that is held at its bound
-constexpr int kBeforeRows = 5;        // rows of onsets that share one estimate of the effects before them
-constexpr int kTimeRounds = 4;        // Newton rounds for the times of the changes, at most
+constexpr double kSilentStd = 1e9;   // N m or N: standard deviation of a row without weight
+constexpr double kGravity = 9.81;    // m/s^2: only for the scale of a work piece's weight
+constexpr double kMostOfDay = 30.0;  // prior standard deviations: bound of an effect of the day
+constexpr double kHeld = 1e12;       // times its precision: of an effect that is held at its bound
+constexpr int kBeforeRows = 5;       // rows of onsets that share one estimate of the effects before them
+constexpr int kTimeRounds = 4;       // Newton rounds for the times of the changes, at most
 constexpr double kSettledTime_rows = 0.1;  // rows: a change that moves less is settled
 constexpr double kFarthest_rows = 1.5;     // rows from the middle between the two rows of a change, at most
 
@@ -190,7 +190,7 @@ std::vector<WhitePulse> LogFit::white_pulses(const PieceRamps& ramps, const Stac
     out.push_back(std::move(pulse));
   };
   for (Eigen::Index c = 0; c < ramps.change.cols(); ++c)
-    add(ramps.change.col(c), Eigen::numext::abs2(kChangeDoubt_rows * model_.setting.row_s()));
+    add(ramps.change.col(c), Eigen::numext::abs2(kChangeStd_rows * model_.setting.row_s()));
   for (const VectorXd& level : end_levels_) add(level, 1.0);
   return out;
 }
@@ -203,7 +203,7 @@ Explanation LogFit::explain(const Prepared& hypothesis, const PiecePath& path) c
   best.log_likelihood = -std::numeric_limits<double>::infinity();
   for (int round = 0; round < kTimeRounds; ++round) {
     Explanation e = regressed(hypothesis, piece_ramps(path, time_s(), model_.setting.kernel_s, later_s));
-    e.log_likelihood -= 0.5 * (later_s / (kChangeDoubt_rows * row_s)).squaredNorm();
+    e.log_likelihood -= 0.5 * (later_s / (kChangeStd_rows * row_s)).squaredNorm();
     e.path = path;
     const VectorXd moved = e.later_s;
     e.later_s = later_s;
@@ -255,7 +255,7 @@ PiecePath LogFit::path_of(const Stacked& left, const StackedMask& dropped, bool 
   Eigen::Map<VectorXd> flat(std.data(), std.size());
   for (const StackedMask* mask : {&dropped, &silent_})
     for (std::size_t i = 0; i < mask->size(); ++i)
-      if ((*mask)[i]) flat[static_cast<Eigen::Index>(i)] = kSaysNothing;
+      if ((*mask)[i]) flat[static_cast<Eigen::Index>(i)] = kSilentStd;
   return piece_path(unstacked(left, joints()), model_.piece_kg * tip_, std);
 }
 

@@ -66,7 +66,7 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
 /// before its onset: if a fault ends and the hypothesis does not, its own effects are biased.
 WithAndWithout by_earlier_effects(const LogFit& fit, const FaultHypothesis& h) {
   const Stacked shift = fit.white_effects() * (h.fit.day - fit.day_before(h.onset_s));
-  return {h.fit.left + shift, fit.left_without_fault(h.fit) + shift};
+  return {h.fit.left + shift, fit.residual_without_fault(h.fit) + shift};
 }
 
 /// Adds the hypothesis with an end, if the log shows that the fault is gone; it replaces those that last
@@ -74,7 +74,7 @@ WithAndWithout by_earlier_effects(const LogFit& fit, const FaultHypothesis& h) {
 void add_end(const FaultHypothesis& h, JudgedHypotheses& bench) {
   if (silences(h.kind) || h.end_s < kNeverEnds) return;
   const std::optional<double> end_s =
-      gone_from(bench.fit, by_earlier_effects(bench.fit, h), h.onset_s + kLeastFault_s);
+      absent_from_s(bench.fit, by_earlier_effects(bench.fit, h), h.onset_s + kLeastFault_s);
   if (!end_s) return;
   FaultClaim claim = h;
   claim.end_s = *end_s;

@@ -45,7 +45,7 @@ double gain_in_balance(const LogFit* fit, const FaultClaim& claim) {
 /// Scores a torque of any form: it explains an offset, such as that of a drive, and has a price for all other
 /// forms. A torque balance of the command lacks the torque that the drive did not give; one of a sensor shows
 /// its error.
-StretchScore of_no_kind(const SignalStretch& s, const LogFit* fit) {
+StretchScore score_free_form(const SignalStretch& s, const LogFit* fit) {
   StretchScore out{claim_of(s, FaultKind::unknown)};
   out.claim.is_of_drive = true;
   double offset = 0.0;
@@ -119,7 +119,7 @@ bool is_response(const SignalStretch& law, const FaultClaim& fault) {
 /// a false position, or a joint that halts, makes the command jump, and a drive lags behind.
 bool explains_more(const ExplainedFault& fault, const JudgedStretch& drive) {
   const FaultKind kind = fault.claim.kind;
-  const bool makes_a_jump = reads_wrong(kind) || (silences(kind) && kind != FaultKind::unknown);
+  const bool makes_a_jump = falsifies_position(kind) || (silences(kind) && kind != FaultKind::unknown);
   return makes_a_jump && std::abs(fault.claim.onset_s - drive.stretch.onset_s) < kAtOnce_s &&
          fault.evidence > drive.fault.evidence;
 }
@@ -155,7 +155,7 @@ std::optional<JudgedStretch> as_one_loss(const JudgedStretch& a, const JudgedStr
 }  // namespace
 
 JudgedStretch judge_stretch(const SignalStretch& stretch, const LogFit* fit) {
-  std::vector<StretchScore> all = {of_no_kind(stretch, fit)};
+  std::vector<StretchScore> all = {score_free_form(stretch, fit)};
   for (std::optional<StretchScore> more : {of_loss(stretch, fit), of_sensor(stretch, fit)})
     if (more) all.push_back(std::move(*more));
   std::stable_sort(all.begin(), all.end(),

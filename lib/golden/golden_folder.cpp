@@ -130,7 +130,7 @@ void save_golden(const std::string& folder, GoldenSet& set, const std::vector<st
     if (!named.count(path) && has_inner_file(folder, path)) fs::remove(inside(folder, path), error);
 }
 
-void remove_left_over(const std::string& folder, const GoldenSet& set) {
+void remove_orphaned_files(const std::string& folder, const GoldenSet& set) {
   std::set<fs::path> named = {inside(folder, set.model.path), inside(folder, set.cases.path)};
   for (const GoldenLog& log : set.logs) {
     named.insert(inside(folder, log.trace.path));

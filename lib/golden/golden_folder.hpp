@@ -31,7 +31,7 @@ void save_golden(const std::string& folder, GoldenSet& set, const std::vector<st
 
 /// Removes traces, models and case bases under names of their content that `set` does not name, which an
 /// interrupted accept_golden() left there.
-void remove_left_over(const std::string& folder, const GoldenSet& set);
+void remove_orphaned_files(const std::string& folder, const GoldenSet& set);
 
 /// Writes a copy of the model file and its case base into the folder, under names of their content, and names
 /// them in `set`.

@@ -19,7 +19,7 @@ constexpr int kSettlingRounds = 2;    // renewals of columns that depend on the 
 constexpr double kSlow_s = 0.02;      // samples farther apart show no spring
 
 /// Marks moving joints with significant unexplained torque.
-std::vector<bool> joints_to_look_at(const Gathered& gathered, const ModelChoice& choice) {
+std::vector<bool> unexplained_joints(const Gathered& gathered, const ModelChoice& choice) {
   std::vector<bool> out;
   for (std::size_t j = 0; j < choice.held_out_r2.size(); ++j)
     out.push_back(!gathered.windows.still[j] && choice.held_out_r2[j] < 1.0 - kLooked * kLooked);
@@ -112,7 +112,7 @@ ParameterSpace pruned(const ParameterSpace& space, const std::vector<bool>& stay
 }
 
 /// Lists the terms tried, except rejected drives, ripples and gains: these are many.
-void tell_terms(const std::vector<ModelTerm>& tried, std::vector<ModelTerm>& terms) {
+void list_terms(const std::vector<ModelTerm>& tried, std::vector<ModelTerm>& terms) {
   for (const ModelTerm& term : tried)
     if (term.kept || term.name.starts_with("fl_") || term.name.starts_with("gc_")) terms.push_back(term);
 }
@@ -192,7 +192,7 @@ double nominal_timing(const Robot& robot) {
 
 void take_extra_terms(std::span<LogSource* const> logs, Gathered& gathered, Identification& id,
                       ModelDraft& draft) {
-  const std::vector<bool> look = joints_to_look_at(gathered, draft.choice);
+  const std::vector<bool> look = unexplained_joints(gathered, draft.choice);
   if (std::count(look.begin(), look.end(), true) == 0) return;
   const ParameterSpace wide = with_candidates(gathered, draft, look, id);
   const double phi = std::clamp(draft.torque.fit.parameters[id.space.timing()], 0.0, 1.0);
@@ -221,7 +221,7 @@ void take_extra_terms(std::span<LogSource* const> logs, Gathered& gathered, Iden
     draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
     settle_columns(logs, gathered, id, draft);
   }
-  tell_terms(tried.terms, draft.choice.terms);
+  list_terms(tried.terms, draft.choice.terms);
 }
 
 }  // namespace faultline

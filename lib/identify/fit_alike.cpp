@@ -12,11 +12,11 @@
 #include "lib/core/statistics.hpp"
 #include "lib/identify/extra_stage.hpp"
 #include "lib/identify/gathered.hpp"
+#include "lib/identify/interpretation/reinterpretation.hpp"
 #include "lib/identify/parameter_table.hpp"
-#include "lib/identify/reading/misreading.hpp"
 #include "lib/identify/shooting_stage.hpp"
 #include "lib/identify/torque_fit.hpp"
-#include "lib/identify/verdict/doubtful_parameters.hpp"
+#include "lib/identify/verdict/confounded_parameters.hpp"
 #include "lib/identify/verdict/fit_verdict.hpp"
 #include "lib/identify/wanted_parameters.hpp"
 #include "lib/identify/weak_form/weak_choice.hpp"
@@ -27,9 +27,10 @@ namespace {
 constexpr double kGood = 0.97;  // least explained share of a joint's torque: below, other columns are tried
 constexpr double kWorthShooting = 0.95;  // of every joint's torque: below, the motion is not fitted
 
-constexpr int kFewestLogs = 3;      // if two logs disagree, neither is the odd one
-constexpr double kOdd = 4.0;        // times the residual of the other logs, in rms and as a share,
-constexpr double kOddShare = 0.01;  // and at least this share of its mean square: days of a robot differ too
+constexpr int kFewestLogs = 3;         // if two logs disagree, neither is the odd one
+constexpr double kOutlierRatio = 4.0;  // times the residual of the other logs, in rms and as a share,
+constexpr double kOutlierShare =
+    0.01;  // and at least this share of its mean square: days of a robot differ too
 
 std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
 
@@ -68,7 +69,7 @@ void smooth_friction(const Eigen::VectorXd& nominal, ParameterSpace& space, Eige
 
 /// Returns the logs, from 0, whose residual with a fit to the others is far larger than that of the others:
 /// another robot, another load, or a fault. Never half of them or more; none if folds are not logs.
-std::vector<int> odd_logs(const ModelChoice& choice) {
+std::vector<int> outlier_logs(const ModelChoice& choice) {
   std::vector<int> odd;
   const HeldOutError& e = choice.held_out;
   const int logs = static_cast<int>(e.square.rows());
@@ -83,8 +84,8 @@ std::vector<int> odd_logs(const ModelChoice& choice) {
         }
       if (left.empty() || e.rows(i, j) == 0.0) continue;
       const double own_share = e.square(i, j) / std::max(e.torque(i, j), 1e-300);
-      if (e.square(i, j) > kOdd * kOdd * upper_median(left) && own_share > kOddShare &&
-          own_share > kOdd * kOdd * upper_median(share)) {
+      if (e.square(i, j) > kOutlierRatio * kOutlierRatio * upper_median(left) && own_share > kOutlierShare &&
+          own_share > kOutlierRatio * kOutlierRatio * upper_median(share)) {
         odd.push_back(i);
         break;
       }
@@ -111,7 +112,7 @@ std::vector<int> repeated_logs(Identification& id) {
 }
 
 /// Computes how much logs differ: the standard deviation between fits to single logs, by parameter.
-void tell_spread(const ModelChoice& choice, Identification& id) {
+void store_spread(const ModelChoice& choice, Identification& id) {
   id.between_logs_std.assign(id.space.count(), std::numeric_limits<double>::quiet_NaN());
   std::vector<int> used;
   for (int log = 0; log < static_cast<int>(choice.spread.cols()); ++log)
@@ -125,7 +126,7 @@ void tell_spread(const ModelChoice& choice, Identification& id) {
   }
 }
 
-void name_odd_logs(const std::vector<int>& odd, bool kept, Identification& id) {
+void name_outlier_logs(const std::vector<int>& odd, bool kept, Identification& id) {
   for (const int log : odd) {
     id.logs[log].left_out = !kept;
     id.issues.add(make_issue(fmt::format("odd_log_{}", log + 1), Severity::warning,
@@ -139,8 +140,8 @@ void name_odd_logs(const std::vector<int>& odd, bool kept, Identification& id) {
 }
 
 /// Searches another interpretation of the columns if the robot explains the logs poorly or is infeasible.
-void question_columns(std::span<LogSource* const> logs, const std::vector<int>& still, bool infeasible,
-                      Identification& id) {
+void search_interpretation(std::span<LogSource* const> logs, const std::vector<int>& still, bool infeasible,
+                           Identification& id) {
   bool poor = false;
   for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
     if (std::count(still.begin(), still.end(), static_cast<int>(j) + 1) == 0)
@@ -151,7 +152,7 @@ void question_columns(std::span<LogSource* const> logs, const std::vector<int>& 
       id.reason += "; " + issue->message;
     }
   if (!poor && !infeasible) return;
-  const Misreading found = find_misreading(logs, id.robot);
+  const Reinterpretation found = find_reinterpretation(logs, id.robot);
   if (found.what.empty()) return;
   id.status = IdentificationStatus::unexplained;
   id.reason += fmt::format("; it looks as if {}", found.what);
@@ -166,7 +167,7 @@ void question_columns(std::span<LogSource* const> logs, const std::vector<int>& 
 }
 
 /// Whether a gear was found to be a spring, so that the motion is not that of rigid gears.
-bool gives_way(const ParameterSpace& space, const TorqueFit& torque) {
+bool has_compliant_gear(const ParameterSpace& space, const TorqueFit& torque) {
   for (int p = space.extra_begin(); p < space.timing(); ++p)
     if (torque.wanted[p] && space.extra_at(p).kind == ExtraKind::gear_compliance) return true;
   return false;
@@ -187,7 +188,7 @@ void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, T
                    fmt::format("the model explains only {:.1f} % of some joint's torque: its motion was not "
                                "fitted",
                                100.0 * std::max(worst, 0.0))));
-  } else if (options.method == IdentifyMethod::automatic && gives_way(id.space, torque)) {
+  } else if (options.method == IdentifyMethod::automatic && has_compliant_gear(id.space, torque)) {
     id.issues.add(make_issue("gear_compliance", Severity::note,
                              "a gear is elastic: values and intervals come from the momentum balance, the "
                              "motion with rigid gears was not fitted"));
@@ -239,8 +240,8 @@ ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, con
   };
   gathered.leave_out(repeated_logs(id));
   draft.choice = choose();
-  if (const std::vector<int> odd = odd_logs(draft.choice); !odd.empty()) {
-    name_odd_logs(odd, options.keep_all, id);
+  if (const std::vector<int> odd = outlier_logs(draft.choice); !odd.empty()) {
+    name_outlier_logs(odd, options.keep_all, id);
     if (!options.keep_all) {
       gathered.leave_out(odd);
       draft.choice = choose();
@@ -250,16 +251,16 @@ ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, con
   take_extra_terms(logs, gathered, id, draft);
   draft.choice.weak.shift = draft.torque.shift;
   settle_terms(id.space, draft);
-  if (!draft.torque.not_a_robot.empty())
+  if (!draft.torque.why_infeasible.empty())
     id.issues.add(make_issue("infeasible", Severity::warning,
-                             draft.torque.not_a_robot +
+                             draft.torque.why_infeasible +
                                  ", which is infeasible; the nearest feasible robot was used instead: "
                                  "these logs do not determine values next to that bound"));
   return draft;
 }
 
 /// Stores what is not in the equations of motion: the torque gains of the log and the compliance of gears.
-void tell_drives(const Gathered& gathered, const Eigen::VectorXd& parameters, Identification& id) {
+void store_drives(const Gathered& gathered, const Eigen::VectorXd& parameters, Identification& id) {
   const int n = id.space.joints();
   if (!gathered.torque_gain.empty()) {
     id.robot.torque_gain.resize(n, 1.0);
@@ -292,30 +293,30 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   id.robot = robot;
   id.space = parameter_space(robot);
   Gathered gathered = gather(logs, options.window_s, options.max_windows, progress, id);
-  const std::vector<int> still = still_joints(gathered.measurements, id.space);
+  const std::vector<int> still = unmoved_joints(gathered.measurements, id.space);
   gathered.leave_out_joints(still);
   ModelDraft draft = draft_model(logs, gathered, still, options, id);
   TorqueFit& torque = draft.torque;
   settle_method(logs, gathered, torque, draft.nominal, options, progress, id);
-  tell_drives(gathered, torque.fit.parameters, id);
+  store_drives(gathered, torque.fit.parameters, id);
 
   const std::vector<int> undriven = undriven_joints(id.space, torque);
-  doubt_still_joints(id.space, still, torque);
-  doubt_undriven_joints(id.space, undriven, torque);
-  const std::vector<int> leaning = doubt_beside_offsets(id.space, robot, torque);
+  mark_unmoved_joints(id.space, still, torque);
+  mark_undriven_joints(id.space, undriven, torque);
+  const std::vector<int> leaning = mark_beside_offsets(id.space, robot, torque);
   id.condition_number = torque.fit.condition_number;
   judge_fit(torque, draft.choice, gathered, still, undriven, id);
-  tell_spread(draft.choice, id);
-  question_columns(logs, still, id.issues.find("infeasible") != nullptr, id);
+  store_spread(draft.choice, id);
+  search_interpretation(logs, still, id.issues.find("infeasible") != nullptr, id);
   if (id.method == IdentifyMethod::weak_form) smooth_friction(draft.nominal, id.space, id.estimate);
   list_base_parameters(torque.fit, {torque.wanted, still, undriven, leaning, has_fast_log(id)}, id);
   if (id.issues.find("infeasible") != nullptr && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
     id.reason += "; the best fit is infeasible: no real robot has these parameters";
   }
-  if (!all_told(id) && id.status == IdentificationStatus::converged) {
+  if (!all_identifiable(id) && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
-    id.reason += "; " + why_not_told(still, undriven, leaning);
+    id.reason += "; " + why_not_identifiable(still, undriven, leaning);
   }
   for (int p = 0; p < id.space.rigid(); ++p)
     fit.usable.push_back(torque.fit.free[p] && !torque.fit.confounded[p]);

@@ -125,7 +125,7 @@ void Gathered::leave_out_joints(const std::vector<int>& still) {
   for (const int joint : still) windows.still[joint - 1] = true;
 }
 
-std::vector<int> still_joints(const Measurements& measurements, const ParameterSpace& space) {
+std::vector<int> unmoved_joints(const Measurements& measurements, const ParameterSpace& space) {
   std::vector<int> still;
   const Eigen::VectorXd range = measurements.q_high() - measurements.q_low();
   for (int j = 0; j < space.joints(); ++j) {

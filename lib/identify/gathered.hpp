@@ -38,7 +38,7 @@ void gather_again(std::span<LogSource* const> logs, const ParameterSpace& space,
 
 /// Returns the joints, from 1, whose position hardly changed in all logs: within its noise, or by less than 2
 /// mrad or .2 mm.
-std::vector<int> still_joints(const Measurements& measurements, const ParameterSpace& space);
+std::vector<int> unmoved_joints(const Measurements& measurements, const ParameterSpace& space);
 
 /// Returns excerpts of the logs with each joint's torque shifted by the samples of its delay.
 std::vector<Excerpt> gather_excerpts(std::span<LogSource* const> logs, const Gathered& gathered,

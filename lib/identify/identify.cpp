@@ -70,9 +70,10 @@ std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate>
   const PhysicalFit physical = physical_parameters(id.robot, id.space, estimates);
   id.physical_parameters = physical.parameters;
   if (physical.contradiction > kContradicts) add_contradiction(physical.contradiction, id);
-  if (!physical.hardly_told.empty() && id.status == IdentificationStatus::converged) {
+  if (!physical.hardly_identifiable.empty() && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
-    id.reason += fmt::format("; these motions hardly determine {}", fmt::join(physical.hardly_told, ", "));
+    id.reason +=
+        fmt::format("; these motions hardly determine {}", fmt::join(physical.hardly_identifiable, ", "));
   }
   if (!physical.guessed_lengths.empty()) add_guess(physical, id);
   Robot sized = id.robot;

@@ -53,7 +53,7 @@ std::string why_not(const Identification& id, int p, const TableFacts& facts) {
     return fmt::format("left at {:g}: it does not lower the held-out error", id.estimate[p]);
   if (!facts.asked[p] && p == id.space.timing())
     return fmt::format("left at {:g}: the robot file states how torque runs between samples", id.estimate[p]);
-  if (p < id.space.rigid()) return why_not_told(facts.still, facts.undriven, facts.leaning);
+  if (p < id.space.rigid()) return why_not_identifiable(facts.still, facts.undriven, facts.leaning);
   return p >= id.space.offset(0) && !facts.asked[p] ? why_offset(id, p, facts) : not_excited(still);
 }
 
@@ -82,8 +82,8 @@ std::string not_excited(const std::vector<int>& still) {
                      fmt::join(still, ", "));
 }
 
-std::string why_not_told(const std::vector<int>& still, const std::vector<int>& undriven,
-                         const std::vector<int>& leaning) {
+std::string why_not_identifiable(const std::vector<int>& still, const std::vector<int>& undriven,
+                                 const std::vector<int>& leaning) {
   if (still.empty() && !leaning.empty())
     return fmt::format(
         "a friction offset of joint {0} would act like its mass and rotor; state fo{0} under [known], 0 if "
@@ -105,7 +105,7 @@ void list_base_parameters(const WeakFit& weak, const TableFacts& facts, Identifi
   }
 }
 
-bool all_told(const Identification& id) {
+bool all_identifiable(const Identification& id) {
   for (int p = 0; p < id.space.offset(0); ++p)
     if (!id.base_parameters[p].identifiable && !(p < id.space.rigid() && id.space.base[p].is_rotor))
       return false;

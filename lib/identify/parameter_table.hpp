@@ -24,14 +24,14 @@ struct TableFacts {
 /// Returns what to record so that the motion determines a parameter.
 std::string not_excited(const std::vector<int>& still);
 /// The same, if joints may be still, hardly driven or assumed without friction offset, all from 1.
-std::string why_not_told(const std::vector<int>& still, const std::vector<int>& undriven,
-                         const std::vector<int>& leaning);
+std::string why_not_identifiable(const std::vector<int>& still, const std::vector<int>& undriven,
+                                 const std::vector<int>& leaning);
 
 /// Fills id.base_parameters from id.estimate and id.covariance: the parameters of the space, except bent,
 /// skew and extra terms of value 0; those that were not identified with the reason.
 void list_base_parameters(const WeakFit& weak, const TableFacts& facts, Identification& id);
 
 /// Whether every base parameter but rotors, and all viscous and Coulomb friction, are identifiable.
-bool all_told(const Identification& id);
+bool all_identifiable(const Identification& id);
 
 }  // namespace faultline

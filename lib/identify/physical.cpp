@@ -207,7 +207,7 @@ PhysicalFit physical_parameters(const Robot& robot, const ParameterSpace& space,
     e.unit = u.kind == 'l' ? "m" : "kg";
     if (u.kind == 'l' && e.identifiable) fit.lengths[u.index] = e.value;
     if (u.kind == 'l' && !e.identifiable) guess_length(u, elementary::exp(solution.log_value[k]), fit);
-    if (k >= 0 && !e.identifiable && solution.freedom[k] < kMoves) fit.hardly_told.push_back(u.name);
+    if (k >= 0 && !e.identifiable && solution.freedom[k] < kMoves) fit.hardly_identifiable.push_back(u.name);
     fit.parameters.push_back(std::move(e));
   }
   return fit;

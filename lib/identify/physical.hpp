@@ -15,7 +15,7 @@ struct PhysicalFit {
   /// Contradiction of base parameters and facts, in standard errors, if they exceed masses and lengths in
   /// number; about 1 if the links are as assumed. Intervals are widened by it.
   double contradiction = 1.0;
-  std::vector<std::string> hardly_told;  ///< names of those whose interval would reach zero
+  std::vector<std::string> hardly_identifiable;  ///< names of those whose interval would reach zero
   /// Of all links. If one is neither known nor identified, a guess from positive masses: of a SCARA whose l1
   /// is known, b / c bounds l2 to +-20 %.
   std::vector<double> lengths;

@@ -66,7 +66,7 @@ void hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit&
 
 /// Removes extra terms that are impossible or do not differ clearly from zero, the least certain first. A
 /// ripple's cosine may well be zero.
-void drop_doubtful_extra(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit& torque) {
+void drop_insignificant_extra(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit& torque) {
   for (;;) {
     int worst = -1;
     double least = kClearlyThere;
@@ -113,7 +113,7 @@ TorqueFit with_rotors(const TorqueFit& torque, const ParameterSpace& space, cons
 }
 
 /// Adds the covariance of unknown friction widths to that of the free parameters.
-void add_doubt(const Eigen::MatrixXd& doubt, WeakFit& fit) {
+void add_covariance(const Eigen::MatrixXd& doubt, WeakFit& fit) {
   for (Eigen::Index i = 0; i < doubt.rows(); ++i)
     for (Eigen::Index k = 0; k < doubt.cols(); ++k)
       if (fit.covariance(i, i) > 0.0 && fit.covariance(k, k) > 0.0) fit.covariance(i, k) += doubt(i, k);
@@ -179,19 +179,19 @@ TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const 
   out.fit = fit_weak_form(out.system, space, nominal, out.wanted);
   settle_timing(gathered.windows, space, nominal, choice.weak, out);
   drop_own_delays(gathered.windows, space, nominal, choice.weak, out);
-  drop_doubtful_extra(space, nominal, out);
+  drop_insignificant_extra(space, nominal, out);
   drop_driving_friction(space, nominal, out);
   hold_at_zero(space, nominal, out);
-  add_doubt(choice.width_doubt, out.fit);
+  add_covariance(choice.width_covariance, out.fit);
   const std::string wrong = what_is_wrong(out, gathered, space);
   if (wrong.empty()) return out;
   TorqueFit rotors = with_rotors(out, space, robot, nominal);
-  add_doubt(choice.width_doubt, rotors.fit);
+  add_covariance(choice.width_covariance, rotors.fit);
   if (what_is_wrong(rotors, gathered, space).empty()) return rotors;
   out.fit.parameters.head(space.linear()) =
       nearest_feasible(space, robot, out.system, out.fit, out.wanted).head(space.linear());
   out.fit.residual = out.system.y - out.system.a * out.fit.parameters.head(space.linear());
-  out.not_a_robot = wrong;
+  out.why_infeasible = wrong;
   return out;
 }
 

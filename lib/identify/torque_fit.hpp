@@ -16,8 +16,9 @@ struct TorqueFit {
   WeakSystem system;
   WeakFit fit;
   std::vector<bool> wanted;
-  std::vector<int> shift;   ///< by joint, samples
-  std::string not_a_robot;  ///< why the optimum is infeasible (the nearest feasible one was taken); else ""
+  std::vector<int> shift;  ///< by joint, samples
+  std::string
+      why_infeasible;  ///< why the optimum is infeasible (the nearest feasible one was taken); else ""
 };
 
 /// Fits the torque balance of the chosen windows and terms, and makes the result feasible. Parameters that

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lib/learn/day_differences.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/core/error.hpp"
 #include "lib/identify/feasible/feasible.hpp"
 
 namespace faultline {
@@ -146,10 +149,23 @@ Identification with_noise_of(Identification identification, const OneStepModel& 
 
 }  // namespace
 
+namespace {
+
+Error predictions_diverge(double period_s) {
+  constexpr auto kMessage =
+      "no robot predicts their motion over one sample period of {:.3g} s. State how the torque acts between "
+      "samples ([log] torque_between_samples), or give logs with slower moves or a shorter sample period";
+  return {ErrorCode::input, "the healthy logs", fmt::format(kMessage, period_s)};
+}
+
+}  // namespace
+
 Identification with_explained_robot(const Identification& identification, const RobotRows& robot) {
   if (const auto* rows = std::get_if<BalanceModel>(&robot))
     return with_friction_of(identification, *rows, rows->setting.friction_width);
   const auto& steps = std::get<OneStepModel>(robot);
+  if (!steps.theta.allFinite() || !steps.reading_variance.allFinite())
+    throw predictions_diverge(steps.setting.period_s);
   return with_noise_of(
       with_base_of(with_friction_of(identification, steps, steps.body.friction_width()), steps), steps);
 }

@@ -20,7 +20,7 @@ RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
 
 /// Returns the identified robot with the friction of the model that explains its logs; at coarse rates also
 /// with its measurement noise, and with its base parameters if they are feasible. The twin then does not
-/// differ from the model that judges it.
+/// differ from the model that judges it. Throws Error(input) if one-step predictions diverge.
 Identification with_explained_robot(const Identification& identification, const RobotRows& robot);
 
 }  // namespace faultline

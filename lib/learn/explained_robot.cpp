@@ -52,7 +52,7 @@ ExplainedRobot explained_robot(std::span<LogSource* const> logs, const Robot& ro
     const RobotRows others = as_stated(std::move(healthy.without[k]), model);
     if (can_explain(uniform[k], others)) out.left_out[k] = explain_healthy(uniform[k], others);
   });
-  model.explain.limits = raised(evidence_limits(out.left_out), options.more_nats);
+  model.explain.limits = raised(evidence_limits(out.left_out), options.limit_shift);
   model.explain.window_s = window_s(uniform);
   return out;
 }

@@ -19,8 +19,8 @@ struct ExplainedRobot {
 
 struct ExplainedRobotOptions {
   IdentifyOptions identify{};
-  double more_nats = 0.0;  ///< added to the evidence limits that healthy logs give
-  int threads = 0;         ///< 0 = one a core; the result does not depend on it
+  double limit_shift = 0.0;  ///< added to the evidence limits that healthy logs give
+  int threads = 0;           ///< 0 = one a core; the result does not depend on it
 };
 
 /// Learns healthy_robot(), the evidence limits and the window length. `logs` outlive the result. Throws

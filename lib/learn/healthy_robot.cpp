@@ -55,7 +55,7 @@ HealthyRobot with_identification(std::span<LogSource* const> logs, const Robot& 
   HealthyRobot out;
   out.model = identified_model(identification);
   out.reading = reading_of(robot, out.model.robot);
-  out.logs = in_time(logs, out.reading, given);
+  out.logs = compensated_logs(logs, out.reading, given);
   out.model.motion = usual_motion(pointers(out.logs), identification.robot.chain);
   out.identification = std::move(identification);
   out.given = std::move(given);
@@ -151,8 +151,8 @@ void set_days(HealthyRobot& robot) {
 
 }  // namespace
 
-TorqueReading reading_of(const Robot& opened_with, const Robot& robot) {
-  TorqueReading out{robot.torque_delay_s, robot.torque_gain};
+TorqueConversion reading_of(const Robot& opened_with, const Robot& robot) {
+  TorqueConversion out{robot.torque_delay_s, robot.torque_gain};
   out.delay_s.resize(robot.joints(), 0.0);
   out.gain.resize(robot.joints(), 1.0);
   for (std::size_t j = 0; j < opened_with.torque_delay_s.size(); ++j)
@@ -161,8 +161,9 @@ TorqueReading reading_of(const Robot& opened_with, const Robot& robot) {
   return out;
 }
 
-std::deque<DelayedTorqueSource> in_time(std::span<LogSource* const> logs, const TorqueReading& reading,
-                                        const std::vector<IdentifiedLog>& identified) {
+std::deque<DelayedTorqueSource> compensated_logs(std::span<LogSource* const> logs,
+                                                 const TorqueConversion& reading,
+                                                 const std::vector<IdentifiedLog>& identified) {
   std::deque<DelayedTorqueSource> out;
   for (std::size_t i = 0; i < logs.size(); ++i)
     if (!identified[i].left_out) out.push_back(reading.of(*logs[i]));

@@ -17,17 +17,18 @@
 namespace faultline {
 
 /// Delay and gain by joint that convert the torques of logs opened with one robot to those of another robot.
-struct TorqueReading {
+struct TorqueConversion {
   std::vector<double> delay_s, gain;
 
   DelayedTorqueSource of(LogSource& log) const { return {log, delay_s, gain}; }
 };
 
-TorqueReading reading_of(const Robot& opened_with, const Robot& robot);
+TorqueConversion reading_of(const Robot& opened_with, const Robot& robot);
 
 /// Returns the logs that were not left out, with delay and gain of torques compensated; `logs` outlive them.
-std::deque<DelayedTorqueSource> in_time(std::span<LogSource* const> logs, const TorqueReading& reading,
-                                        const std::vector<IdentifiedLog>& identified);
+std::deque<DelayedTorqueSource> compensated_logs(std::span<LogSource* const> logs,
+                                                 const TorqueConversion& reading,
+                                                 const std::vector<IdentifiedLog>& identified);
 
 std::vector<LogSource*> pointers(std::deque<DelayedTorqueSource>& logs);
 
@@ -35,7 +36,7 @@ std::vector<LogSource*> pointers(std::deque<DelayedTorqueSource>& logs);
 struct HealthyRobot {
   Identification identification;
   std::vector<IdentifiedLog> given;                 ///< all logs, as first identified
-  TorqueReading reading;                            ///< of logs that were opened with the robot as given
+  TorqueConversion reading;                         ///< of logs that were opened with the robot as given
   std::deque<DelayedTorqueSource> logs;             ///< those not left out
   std::vector<LogSource*> days;                     ///< the same; a single log is cut into several days
   std::vector<std::unique_ptr<LogSource>> parts{};  ///< of a single log

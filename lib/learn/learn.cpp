@@ -15,12 +15,12 @@
 #include "lib/core/parallel.hpp"
 #include "lib/diagnose/monitor/monitor.hpp"
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/learn/consistent_robot.hpp"
 #include "lib/learn/day_differences.hpp"
-#include "lib/learn/model_doubts.hpp"
-#include "lib/learn/reach.hpp"
+#include "lib/learn/detectability.hpp"
+#include "lib/learn/model_caveats.hpp"
 #include "lib/learn/tracking_model.hpp"
 #include "lib/learn/training_episodes.hpp"
-#include "lib/learn/trusted_robot.hpp"
 #include "lib/learn/twin_study.hpp"
 #include "lib/log/remembered_source.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"
@@ -56,7 +56,7 @@ CriterionOptions tuned(const CriterionOptions& start, const SampleClassifier& cl
 }
 
 /// Selects the runs for the sample mode: all healthy ones, and a few of each label that shows in each sample.
-std::vector<LabelledResiduals> of_samples(std::vector<LabelledResiduals> runs) {
+std::vector<LabelledResiduals> sample_mode_runs(std::vector<LabelledResiduals> runs) {
   std::vector<LabelledResiduals> out;
   std::vector<FaultLabel> taken;
   for (LabelledResiduals& run : runs) {
@@ -74,7 +74,7 @@ std::vector<LabelledResiduals> of_samples(std::vector<LabelledResiduals> runs) {
 /// of them, which it does not train on. It uses all healthy runs, and the first few runs of each label whose
 /// fault shows in every sample while it lasts.
 SampleMode learn_sample_mode(const Model& model, std::vector<LabelledResiduals> runs) {
-  runs = of_samples(std::move(runs));
+  runs = sample_mode_runs(std::move(runs));
   std::vector<LabelledResiduals> training, tuning;
   for (std::size_t i = 0; i < runs.size(); ++i)
     (i % 3 == 2 ? tuning : training).push_back(std::move(runs[i]));
@@ -113,13 +113,13 @@ std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
 
 /// Nats that are added to the usual limits for this rate of false alarms: a log-likelihood ratio exceeds t by
 /// chance with a probability of at most exp(-t) (Wald, 1945), so x nats more divide that rate by exp(x).
-double more_nats(double alarms_per_hour) { return elementary::log(kUsualAlarmsPerHour / alarms_per_hour); }
+double limit_shift(double alarms_per_hour) { return elementary::log(kUsualAlarmsPerHour / alarms_per_hour); }
 
 void tell(const Progress& progress, const char* what, double share) {
   if (progress) progress(what, share);
 }
 
-std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const TorqueReading& reading,
+std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const TorqueConversion& reading,
                                     const Model& model) {
   std::vector<MonitoredRun> runs;
   for (const LabelledLog& entry : labelled) {
@@ -155,7 +155,7 @@ TwinStudy joined(TwinStudy a, TwinStudy b) {
 
 /// Trains the networks and fills the case base with simulated faults of the identified robot, and validates
 /// them on runs that were not used in training.
-void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const TorqueReading& reading,
+void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const TorqueConversion& reading,
                      const std::vector<UniformLog>& days, const LearnOptions& options,
                      const Progress& progress) {
   Model& model = out.model;
@@ -206,7 +206,7 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   model.confidence = calibrate_confidence(validated.judged);
   runs.erase(runs.begin() + static_cast<std::ptrdiff_t>(simulated), runs.end());
   std::move(checks.begin(), checks.end(), std::back_inserter(runs));
-  model.validation.reach = reach_of(runs, least_found_in(days, model, options.threads));
+  model.validation.reach = detectability_of(runs, least_found_in(days, model, options.threads));
 }
 
 Learned learn_tracking_alone(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled,
@@ -246,17 +246,17 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   options.check();
   FilledLogs filled(healthy);
   RememberedLogs logs(filled.sources());
-  ModelDoubts doubts{implausible_units(logs.sources(), robot), {}, {}};
+  ModelCaveats doubts{implausible_units(logs.sources(), robot), {}, {}};
   if (!options.keep_doubtful) refuse_grave(doubts);
   if (lack_torque(logs.sources()))
     return learn_tracking_alone(logs.sources(), labelled, robot, options.alarms_per_hour, progress);
-  TrustedRobot trusted = trusted_robot(logs.sources(), robot,
-                                       {.identify = options.identify,
-                                        .more_nats = more_nats(options.alarms_per_hour),
-                                        .threads = options.threads},
-                                       part_of(progress, 0.0, kIdentified));
+  ConsistentRobot trusted = consistent_robot(logs.sources(), robot,
+                                             {.identify = options.identify,
+                                              .limit_shift = limit_shift(options.alarms_per_hour),
+                                              .threads = options.threads},
+                                             part_of(progress, 0.0, kIdentified));
   HealthyRobot& found = trusted.explained.robot;
-  doubts.add(doubts_about(found.identification));
+  doubts.add(caveats_of(found.identification));
   doubts.add({{}, trusted.doubts, {}});
   if (!options.keep_doubtful) refuse_grave(doubts);
   Learned out;
@@ -277,7 +277,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                .torque_offset = model.robot.normal.torque_offset,
                                .alarms_per_hour = options.alarms_per_hour,
                                .torque_gain = model.robot.normal.torque_constant});
-  doubts.add(doubts_about(model.validation, !model.relations.empty()));
+  doubts.add(caveats_of(model.validation, !model.relations.empty()));
   if (!options.keep_doubtful) refuse_grave(doubts);
   model.doubts = listed(doubts);
   model.grave_doubts = against_healthy(doubts);

@@ -55,7 +55,7 @@ struct Learned {
 /// differ, simulate faults on the identified robot, train the networks and fill the case base with them (and
 /// with the labelled logs, if any), and validate all that on further simulated runs. If no healthy log has a
 /// torque, the model holds only how the joints follow their references (tracking_model()). Logs that the
-/// others contradict are left out (trusted_robot()); Model::doubts lists the other doubts about the model.
+/// others contradict are left out (consistent_robot()); Model::doubts lists the other doubts about the model.
 /// Throws Error(input) when the logs do not suffice, or give a model with grave doubts.
 Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled, const Robot& robot,
               const LearnOptions& options = {}, const Progress& progress = {});

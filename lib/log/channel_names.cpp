@@ -177,8 +177,8 @@ const char* meaning_of(Quantity quantity) {
   return "";
 }
 
-NameReading read_name(const std::string& name) {
-  NameReading reading;
+ParsedName parse_name(const std::string& name) {
+  ParsedName reading;
   const auto words = tokens_of(name);
   int number_at = -1;
   bool reference = false, measured = false, other = false;

@@ -37,7 +37,7 @@ std::optional<Channel> canonical_channel(const std::string& name);
 const char* meaning_of(Quantity quantity);
 
 /// Interpretation of a column name such as "actual_q_0" or "/joint_states/position[2]".
-struct NameReading {
+struct ParsedName {
   std::string stem;  ///< name with '#' for its number: the same for names that differ by the number only
   std::optional<int> number;
   std::optional<Quantity> quantity;  ///< nullopt if the name has none, or is an error, limit, acceleration
@@ -46,7 +46,7 @@ struct NameReading {
   std::string joint{};
   int as_torque = 0;  ///< how well the column fits as the only torque of a log, commanded or measured
 };
-NameReading read_name(const std::string& name);
+ParsedName parse_name(const std::string& name);
 
 /// Returns the index of the column whose name fits the time best; -1 for none.
 int find_time_column(const std::vector<std::string>& names);

@@ -25,7 +25,7 @@ std::vector<ColumnFamily> column_families(const std::vector<std::string>& names,
   std::map<std::string, std::size_t> index;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!is_free(static_cast<int>(i))) continue;
-    const NameReading reading = read_name(names[i]);
+    const ParsedName reading = parse_name(names[i]);
     if (!reading.quantity) continue;
     const auto [at, fresh] = index.emplace(reading.stem, families.size());
     if (fresh)

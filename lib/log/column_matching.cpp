@@ -193,12 +193,12 @@ class Matcher {
       return !used_.count(column) || canonical_channel(names_[column]).has_value();
     };
     if (!told_.count(Quantity::q)) families_ = column_families(names_, is_free);
-    misfits_ = take_misfits(families_, columns_, map_);
+    misfits_ = take_mismatched(families_, columns_, map_);
   }
 
   /// Throws if a position or torque exists only in another dimension; notes other quantities that were left
   /// out for this reason.
-  void judge_misfits(Quantity quantity) {
+  void judge_mismatched(Quantity quantity) {
     for (const ColumnFamily& family : misfits_) {
       const bool meant = quantity == Quantity::tau ? is_torque(family.quantity)
                                                    : !is_torque(quantity) && family.quantity == quantity;
@@ -249,7 +249,7 @@ class Matcher {
   Quantity meaning_of_tau() const {
     for (const ChannelSource& source : matching_.channels)
       if (source.channel.quantity == Quantity::tau && source.column >= 0)
-        return read_name(names_[source.column]).quantity.value_or(Quantity::tau);
+        return parse_name(names_[source.column]).quantity.value_or(Quantity::tau);
     return Quantity::tau;
   }
 
@@ -265,7 +265,7 @@ class Matcher {
           add({quantity, j + 1}, column->second);
       note_rivals(quantity, *family);
     }
-    judge_misfits(quantity);
+    judge_mismatched(quantity);
     if (quantity != Quantity::q) return;
     while (taken_.count({Quantity::q, matching_.joints + 1})) ++matching_.joints;
     if (family) note_later_positions(*family);

@@ -50,10 +50,10 @@ double seconds_by(const std::vector<double>& time, const std::vector<double>& q,
 double seconds_by_motion(const std::vector<double>& time, const std::vector<NamedValues>& columns) {
   std::vector<double> estimates;
   for (const NamedValues& q : columns) {
-    const NameReading position = read_name(q.name);
+    const ParsedName position = parse_name(q.name);
     if (position.quantity != Quantity::q) continue;
     for (const NamedValues& dq : columns) {
-      const NameReading velocity = read_name(dq.name);
+      const ParsedName velocity = parse_name(dq.name);
       if (velocity.quantity != Quantity::dq || velocity.number != position.number) continue;
       const double seconds = seconds_by(time, q.values, dq.values);
       if (!std::isnan(seconds)) estimates.push_back(seconds);

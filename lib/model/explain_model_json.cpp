@@ -78,7 +78,7 @@ void visit_noise(Noise& n, Visit& visit) {
 }
 
 template <typename Model, typename Visit>
-void visit_looks(Model& m, Visit& visit) {
+void visit_common_fields(Model& m, Visit& visit) {
   visit("theta", m.theta);
   visit("day_variance", m.day_variance);
   visit("torque_is_measured", m.torque_is_measured);
@@ -92,7 +92,7 @@ void visit_looks(Model& m, Visit& visit) {
 
 template <typename Model, typename Visit>
 void visit_balance(Model& m, Visit& visit) {
-  visit_looks(m, visit);
+  visit_common_fields(m, visit);
   visit("payload", m.payload);
   visit("piece_kg", m.piece_kg);
   visit("q_noise", m.q_noise);
@@ -101,7 +101,7 @@ void visit_balance(Model& m, Visit& visit) {
 
 template <typename Model, typename Visit>
 void visit_one_step(Model& m, Visit& visit) {
-  visit_looks(m, visit);
+  visit_common_fields(m, visit);
   visit("payload", m.payload);
   visit("carried_kg", m.carried_kg);
   visit("reading_variance", m.reading_variance);

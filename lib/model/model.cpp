@@ -37,7 +37,7 @@ nlohmann::json validation_to_json(const Validation& validation) {
                     {"median_delay_s", number_or_null(row.median_delay_s)},
                     {"p90_delay_s", number_or_null(row.p90_delay_s)}});
   nlohmann::json reach = nlohmann::json::array();
-  for (const Reach& each : validation.reach)
+  for (const Detectability& each : validation.reach)
     reach.push_back({{"kind", to_string(each.label.kind)},
                      {"joint", each.label.joint},
                      {"runs", each.runs},

@@ -35,7 +35,7 @@ struct ValidationRow {
 };
 
 /// Smallest fault of one kind at one joint that is still found, from simulated runs.
-struct Reach {
+struct Detectability {
   FaultLabel label;
   int runs = 0;
   int found = 0;
@@ -49,8 +49,8 @@ struct Reach {
 /// Performance of a model on runs of the identified robot (its parameters drawn from their uncertainty).
 struct Validation {
   std::vector<ValidationRow> rows;
-  std::vector<Reach> reach;  ///< in the order of the labels; includes training runs
-  int early_alarms = 0;      ///< alarms before the onset, in the runs of `rows`
+  std::vector<Detectability> reach;  ///< in the order of the labels; includes training runs
+  int early_alarms = 0;              ///< alarms before the onset, in the runs of `rows`
   double healthy_hours = 0.0;
   int false_alarms = 0;  ///< in the healthy hours
   /// Expected calibration error of the confidences in `rows`: as computed from networks, votes and

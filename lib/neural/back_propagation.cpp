@@ -5,7 +5,7 @@
 
 #include "lib/core/random.hpp"
 #include "lib/neural/training.hpp"
-#include "lib/neural/training_watch.hpp"
+#include "lib/neural/training_monitor.hpp"
 
 namespace faultline {
 namespace {
@@ -18,7 +18,7 @@ void shuffle(std::vector<int>& order, Random& random) {
 
 TrainedMlp train_back_propagation(Mlp start, const Patterns& training, const Patterns& validation,
                                   const BackPropagationOptions& options, const Progress& progress) {
-  TrainingWatch watch(start, {training, validation, options.stop, progress, "back-propagation"});
+  TrainingMonitor watch(start, {training, validation, options.stop, progress, "back-propagation"});
   Mlp mlp = std::move(start);
   Eigen::VectorXd weights = parameters_of(mlp), step = Eigen::VectorXd::Zero(weights.size());
   std::vector<int> order(training.count());

@@ -5,7 +5,7 @@
 
 #include "lib/neural/normal_equations.hpp"
 #include "lib/neural/training.hpp"
-#include "lib/neural/training_watch.hpp"
+#include "lib/neural/training_monitor.hpp"
 
 namespace faultline {
 namespace {
@@ -54,7 +54,8 @@ bool solve(const MatrixXd& normal, const VectorXd& gradient, double damping, Vec
 
 TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const Patterns& validation,
                                      const LevenbergMarquardtOptions& options, const Progress& progress) {
-  TrainingWatch watch(start, {training, validation, options.stop, progress, "Levenberg-Marquardt training"});
+  TrainingMonitor watch(start,
+                        {training, validation, options.stop, progress, "Levenberg-Marquardt training"});
   Mlp mlp = std::move(start);
   VectorXd weights = parameters_of(mlp), step;
   LossGradient now = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);

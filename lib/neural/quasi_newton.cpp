@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "lib/neural/training.hpp"
-#include "lib/neural/training_watch.hpp"
+#include "lib/neural/training_monitor.hpp"
 
 namespace faultline {
 namespace {
@@ -73,7 +73,7 @@ bool search(Mlp& mlp, const Objective& objective, const Point& from, const Ray& 
 
 TrainedMlp train_quasi_newton(Mlp start, const Patterns& training, const Patterns& validation,
                               const QuasiNewtonOptions& options, const Progress& progress) {
-  TrainingWatch watch(start, {training, validation, options.stop, progress, "quasi-Newton training"});
+  TrainingMonitor watch(start, {training, validation, options.stop, progress, "quasi-Newton training"});
   Mlp mlp = std::move(start);
   const Objective objective{training, options.weight_decay};
   Point now{parameters_of(mlp), objective.at(mlp)}, next;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/neural/training_watch.hpp"
+#include "lib/neural/training_monitor.hpp"
 
 namespace faultline {
 
@@ -33,7 +33,7 @@ std::string TrainingSummary::text() const {
                      to_string(stop), iterations, initial_mse, training_mse, validation_mse);
 }
 
-TrainingWatch::TrainingWatch(const Mlp& start, const WatchedTraining& watched)
+TrainingMonitor::TrainingMonitor(const Mlp& start, const MonitoredTraining& watched)
     : watched_(watched), best_(start) {
   const Patterns& training = watched.training;
   const Patterns& validation = watched.validation;
@@ -43,14 +43,14 @@ TrainingWatch::TrainingWatch(const Mlp& start, const WatchedTraining& watched)
   if (has_validation()) best_validation_ = mean_squared_error(start, validation);
 }
 
-bool TrainingWatch::stalled(double loss) {
+bool TrainingMonitor::stalled(double loss) {
   small_falls_ =
       last_loss_ - loss < watched_.stop.relative_tolerance * std::fabs(loss) ? small_falls_ + 1 : 0;
   last_loss_ = loss;
   return small_falls_ >= 10;
 }
 
-std::optional<TrainingStop> TrainingWatch::after_iteration(const Mlp& mlp, double loss) {
+std::optional<TrainingStop> TrainingMonitor::after_iteration(const Mlp& mlp, double loss) {
   const int done = ++summary_.iterations;
   summary_.loss.push_back(loss);
   if (watched_.progress)
@@ -73,7 +73,7 @@ std::optional<TrainingStop> TrainingWatch::after_iteration(const Mlp& mlp, doubl
   return std::nullopt;
 }
 
-TrainedMlp TrainingWatch::finish(Mlp last, TrainingStop stop) {
+TrainedMlp TrainingMonitor::finish(Mlp last, TrainingStop stop) {
   TrainedMlp trained{has_validation() ? best_ : std::move(last), summary_};
   trained.summary.stop = stop;
   if (!has_validation()) trained.summary.best_iteration = summary_.iterations;

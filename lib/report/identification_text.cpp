@@ -36,7 +36,7 @@ std::string fit_text(const Identification& id) {
         id.dq_noise.empty() ? "" : fmt::format(", of dq {:.3g}", id.dq_noise[j]));
   for (const ModelTerm& t : id.terms)
     text += fmt::format("  {:<9} {}: held-out residual of joint {} {:.4g} without, {:.4g} with it\n", t.name,
-                        worth_words(t), t.joint + 1, t.error_before, t.error_after);
+                        term_verdict(t), t.joint + 1, t.error_before, t.error_after);
   return text + fmt::format("  condition number {:.3g}\n", id.condition_number);
 }
 
@@ -82,7 +82,7 @@ std::string flag_line(const ParameterTrend& t) {
 
 }  // namespace
 
-const char* worth_words(const ModelTerm& term) {
+const char* term_verdict(const ModelTerm& term) {
   if (term.kept) return "is kept";
   return term.error_after < kSeemsToPay * term.error_before
              ? "is not kept, as it lowers the residual too little or not in each log"

@@ -21,7 +21,7 @@ std::vector<std::string> trend_lines(const Identification& identification);
 std::vector<std::string> excitation_lines(const Identification& identification);
 
 /// Whether a term pays, or why it is left out all the same.
-const char* worth_words(const ModelTerm& term);
+const char* term_verdict(const ModelTerm& term);
 
 /// A mixture of parameters, such as "I1 - 0.98 mx2"; empty when there is none.
 std::string mixture_text(const Excitation& excitation);

@@ -76,7 +76,7 @@ std::string finding(const FaultFinding& f) {
   text += list("It could also be", others);
   text += similar_cases_table(f);
   if (was_asked(f.mlp) || was_asked(f.rbfn))
-    text += table({"network", "says", "confidence"},
+    text += table({"network", "names", "confidence"},
                   {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
                    {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}});
   return text + list("Evidence", evidence);

@@ -62,7 +62,7 @@ std::string swinging(double reach) {
 
 TEST_F(BadLearning, DegreesTakenForRadiansAreRefusedBeforeAnyWork) {
   robot_ = folder_.write("robot.toml", "axes = \"R\"\n[known]\nl1 = 0.3\n");
-  const std::vector<std::string> words = {"log.csv", "q1 lies between -45 and 45", "hardly in rad",
+  const std::vector<std::string> words = {"log.csv", "q1 is between -45 and 45", "hardly in rad",
                                           "[log.columns] q1 = {unit = \"deg\"}", "--force"};
   const auto start = std::chrono::steady_clock::now();
   expect_refused(learn(swinging(45.0)), 3, words);
@@ -81,7 +81,7 @@ TEST_F(BadLearning, DegreesTakenForRadiansAreRefusedBeforeAnyWork) {
 }
 
 TEST_F(BadLearning, MillimetresTakenForMetresAreRefused) {
-  expect_refused(learn(swinging(80.0)), 3, {"q1 lies between -80 and 80", "hardly in m", "unit = \"mm\""});
+  expect_refused(learn(swinging(80.0)), 3, {"q1 is between -80 and 80", "hardly in m", "unit = \"mm\""});
 }
 
 TEST_F(BadLearning, LogWithoutTorque) {

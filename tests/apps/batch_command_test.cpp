@@ -165,9 +165,8 @@ TEST(BatchCommand, ALogWithoutAModelIsSaidBeforeAnythingIsDone) {
   };
   EXPECT_NE(refused({"day_1=" + world.model()}).find("runs/day_2/run_1.csv: 2 of 4 logs have no model"),
             std::string::npos);
-  EXPECT_NE(
-      refused({world.model(), "day_3=" + world.model()}).find("no log is below a folder of that name"),
-      std::string::npos);
+  EXPECT_NE(refused({world.model(), "day_3=" + world.model()}).find("no log is below a folder of that name"),
+            std::string::npos);
   EXPECT_NE(refused({world.model(), world.model()}).find("twice"), std::string::npos);
   EXPECT_NE(refused({"=" + world.model()}).find("give DIR=MODEL"), std::string::npos);
 }

@@ -140,7 +140,7 @@ TEST_F(GoldenAccept, WhatDiffersOnlyInNumbersCanBeTakenAlone) {
   EXPECT_TRUE(has(check.out, "4 different (2 also in the findings)")) << check.out;
   const ProgramRun run = golden_.run("accept", {"--same-verdict"});
   EXPECT_EQ(run.status, 1) << run.err;
-  EXPECT_TRUE(has(run.out, "found in: locked_1.csv, payload_change.csv")) << run.out;
+  EXPECT_TRUE(has(run.out, "differ in: locked_1.csv, payload_change.csv")) << run.out;
   EXPECT_TRUE(has(run.out, "Accepted: collision_1.csv, ")) << run.out;
   EXPECT_TRUE(has(golden_.run("check").out, "2 different (2 also in the findings)"));
   const std::string model = golden_.outside("new.model");

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "lib/balance/reading_residual.hpp"
+#include "lib/balance/measured_residual.hpp"
 #include "lib/core/error.hpp"
 #include "lib/identify/parameter_space.hpp"
 #include "lib/log/memory_source.hpp"
@@ -80,7 +80,7 @@ TEST(BalanceRows, TheResidualOfATrajectoryIsThatOfItsColumns) {
   theta[layout.delay(0)] = 0.4;
   const UniformLog log = log_of(run);
   const BalanceRows rows = balance_rows(log, setting, rigid, theta);
-  const ReadingResidual residual(log, setting, rigid, theta);
+  const MeasuredResidual residual(log, setting, rigid, theta);
   const Eigen::MatrixXd left = residual.of(reading_of(log, 0), 0);
   for (int j = 0; j < 3; ++j)
     EXPECT_LT((rows.torque.col(j) - rows.column[j] * theta - left.col(j)).norm(), 1e-9) << j;

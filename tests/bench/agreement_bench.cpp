@@ -18,7 +18,7 @@ using namespace faultline;
 
 constexpr std::uint64_t kSeed = 101;
 constexpr double kSampleCap = 10.0;  // nats, as in the study
-constexpr ControllerReading kController = ControllerReading::held;
+constexpr ControllerVariant kController = ControllerVariant::held;
 
 /// Sums for a correlation coefficient.
 class Correlation {

@@ -8,8 +8,8 @@
 
 #include "apps/work/robot_log.hpp"
 #include "lib/core/error.hpp"
-#include "lib/learn/model_doubts.hpp"
-#include "lib/learn/trusted_robot.hpp"
+#include "lib/learn/consistent_robot.hpp"
+#include "lib/learn/model_caveats.hpp"
 #include "lib/log/remembered_source.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -25,8 +25,8 @@ void judge(const std::string& robot_file, const std::vector<std::string>& paths)
   for (const std::string& path : paths)
     sources.push_back(owners.emplace_back(open_robot_log(path, robot)).get());
   RememberedLogs logs(sources);
-  const TrustedRobot trusted = trusted_robot(logs.sources(), robot, {});
-  ModelDoubts doubts = doubts_about(trusted.explained.robot.identification);
+  const ConsistentRobot trusted = consistent_robot(logs.sources(), robot, {});
+  ModelCaveats doubts = caveats_of(trusted.explained.robot.identification);
   doubts.add({{}, trusted.doubts, {}});
   for (const IdentifiedLog& log : trusted.explained.robot.given)
     fmt::print("{},{}\n", name_of(log.path), log.left_out ? "left out" : "used");

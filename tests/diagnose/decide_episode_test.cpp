@@ -125,7 +125,7 @@ TEST(DecideEpisode, ARejectionOfTheNameByEvidenceWarns) {
   const FaultFinding finding = decide_episode(episode, model, base);
   ASSERT_EQ(finding.decided_by, DecidedBy::evidence);
   ASSERT_NE(item(finding, "warning"), nullptr);
-  EXPECT_NE(item(finding, "warning")->text.find("also called locked at joint 2"), std::string::npos);
+  EXPECT_NE(item(finding, "warning")->text.find("also diagnosed as locked at joint 2"), std::string::npos);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "lib/diagnose/diagnose.hpp"
 #include "lib/log/log_channels.hpp"
 #include "lib/log/memory_source.hpp"
-#include "lib/log/recorder/mended_source.hpp"
+#include "lib/log/recorder/corrected_source.hpp"
 #include "lib/model/model_files.hpp"
 #include "lib/report/json.hpp"
 #include "lib/report/junit.hpp"
@@ -140,7 +140,7 @@ TEST_F(ImperfectLogs, ARecorderThatStopsWithTheFaultLeavesNoHealthyLog) {
       for_each_joint_channel(log, [&](std::vector<double>& values, Channel) {
         std::fill(values.begin() + stop, values.end(), writes_zeros ? 0.0 : values[stop]);
       });
-      MendedSource source(std::make_unique<MemorySource>(log));
+      CorrectedSource source(std::make_unique<MemorySource>(log));
       const Diagnosis found = diagnose(source, files_.model, files_.cases);
       EXPECT_EQ(found.verdict, Verdict::inconclusive) << name << ": " << found.verdict_reason;
       EXPECT_NE(found.verdict_reason.find("the end of the log"), std::string::npos) << found.verdict_reason;

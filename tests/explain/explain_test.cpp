@@ -315,13 +315,13 @@ TEST(ExplainLog, AHaltThatLeavesASmallShareOfAGreatDealSuffices) {
   ExplainedFault fault;
   fault.claim.kind = FaultKind::locked;
   fault.misfit = 5000.0;
-  fault.left_share = 0.02;
-  EXPECT_TRUE(leaves_much(fault));
+  fault.residual_share = 0.02;
+  EXPECT_TRUE(has_large_misfit(fault));
   EXPECT_TRUE(suffices(fault));
-  fault.left_share = 0.1;
+  fault.residual_share = 0.1;
   EXPECT_FALSE(suffices(fault));
   fault.claim.kind = FaultKind::torque_loss;
-  fault.left_share = 0.02;
+  fault.residual_share = 0.02;
   EXPECT_FALSE(suffices(fault));
 }
 

@@ -34,16 +34,18 @@ WithAndWithout gone_for(double gone_s, double length_s) {
   return out;
 }
 
-TEST(GoneFrom, AFaultThatEveryRowShowsLasts) { EXPECT_FALSE(gone_from(fit(), gone_for(5.0, 0.0), kOnset_s)); }
+TEST(GoneFrom, AFaultThatEveryRowShowsLasts) {
+  EXPECT_FALSE(absent_from_s(fit(), gone_for(5.0, 0.0), kOnset_s));
+}
 
 TEST(GoneFrom, AFaultThatIsGoneForAWhileEndsThere) {
-  const auto end_s = gone_from(fit(), gone_for(5.0, 0.6), kOnset_s);
+  const auto end_s = absent_from_s(fit(), gone_for(5.0, 0.6), kOnset_s);
   ASSERT_TRUE(end_s);
   EXPECT_NEAR(*end_s, 5.0, 0.05);
 }
 
 TEST(GoneFrom, AMomentThatLooksHealthyIsNoEnd) {
-  EXPECT_FALSE(gone_from(fit(), gone_for(5.0, 0.15), kOnset_s));
+  EXPECT_FALSE(absent_from_s(fit(), gone_for(5.0, 0.15), kOnset_s));
 }
 
 }  // namespace

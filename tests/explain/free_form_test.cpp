@@ -38,7 +38,7 @@ double rms_after(const LogFit& fit) {
 }
 
 TEST(FirstChange, IsWhereOneJointAloneIsExplainedNoLonger) {
-  const LogFit fit = fit_with_torque(0.09);
+  const LogFit fit = fit_with_torque(0.07);
   EXPECT_GT(rms_after(fit), 1.8);
   EXPECT_LT(rms_after(fit), 2.6);
   EXPECT_NEAR(first_change(fit).onset_s, kBegins_s, 0.2);

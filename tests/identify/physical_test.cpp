@@ -112,7 +112,7 @@ PhysicalFit solve_arm(double rotor_1, double relative_std) {
 TEST(PhysicalParameters, LinksThatAreWhatTheyAreTakenForContradictNothing) {
   const PhysicalFit fit = solve_arm(0.0, 1e-3);
   EXPECT_LT(fit.contradiction, 1.1);
-  EXPECT_TRUE(fit.hardly_told.empty());
+  EXPECT_TRUE(fit.hardly_identifiable.empty());
   EXPECT_NEAR(fit.parameters[1].value, 2.5, 1e-3);
 }
 
@@ -129,8 +129,8 @@ TEST(PhysicalParameters, ARotorThatIsNotStatedWidensTheIntervalsToTheTruth) {
 
 TEST(PhysicalParameters, AMassWhoseIntervalReachesZeroIsNotIdentifiable) {
   const PhysicalFit fit = solve_arm(0.0, 0.6);
-  ASSERT_FALSE(fit.hardly_told.empty());
-  EXPECT_EQ(fit.hardly_told.front(), "m1");
+  ASSERT_FALSE(fit.hardly_identifiable.empty());
+  EXPECT_EQ(fit.hardly_identifiable.front(), "m1");
   EXPECT_FALSE(fit.parameters[0].identifiable);
   EXPECT_NE(fit.parameters[0].why_not.find("only to within"), std::string::npos);
 }

@@ -66,7 +66,7 @@ TEST(CountedTime, OfATextIsSaidWithTheUnit) {
   const ReadLog read = read_csv(text);
   EXPECT_NEAR(read.log.time[1] - read.log.time[0], 1e-3, 1e-9);
   ASSERT_TRUE(read.issues.find("time_unit_assumed", "t"));
-  EXPECT_NE(read.issues.find("time_unit_assumed", "t")->message.find("taken as us"), std::string::npos);
+  EXPECT_NE(read.issues.find("time_unit_assumed", "t")->message.find("treated as us"), std::string::npos);
 }
 
 TEST(CountedTime, NamesOfMicrosecondsAreUnits) {

@@ -121,7 +121,7 @@ std::string index_data(const std::vector<BatchRow>& rows, const BatchFacts& fact
   const std::string models = list(facts.models, [](const ModelFacts& m) { return shown(m.name); });
   return inside_script(inert_json(
       fmt::format("{{\"pages\":{},\"time\":{},\"models\":{},\"labels\":{},\"parameters\":{},\"rows\":{}}}",
-                  pages, tell_the_date(rows), models, names.labels.json(), names.parameters.json(), body)));
+                  pages, all_have_dates(rows), models, names.labels.json(), names.parameters.json(), body)));
 }
 
 }  // namespace faultline

@@ -27,7 +27,7 @@ std::vector<const BatchRow*> judged_in_order(const std::vector<BatchRow>& rows, 
   std::vector<const BatchRow*> judged;
   for (const BatchRow& row : rows)
     if (is_judged(row)) judged.push_back(&row);
-  by_time = tell_the_date(rows);
+  by_time = all_have_dates(rows);
   if (by_time)
     std::stable_sort(judged.begin(), judged.end(),
                      [](const BatchRow* a, const BatchRow* b) { return a->start_s < b->start_s; });
@@ -111,7 +111,7 @@ PlotPanel parameter_panel(const std::vector<const BatchRow*>& judged) {
 
 }  // namespace
 
-bool tell_the_date(const std::vector<BatchRow>& rows) {
+bool all_have_dates(const std::vector<BatchRow>& rows) {
   return std::all_of(rows.begin(), rows.end(),
                      [](const BatchRow& row) { return !is_judged(row) || row.start_s >= kEpoch; });
 }

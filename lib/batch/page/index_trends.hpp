@@ -13,6 +13,6 @@ namespace faultline {
 std::string index_trends(const std::vector<BatchRow>& rows);
 
 /// Whether all judged logs say when they were recorded.
-bool tell_the_date(const std::vector<BatchRow>& rows);
+bool all_have_dates(const std::vector<BatchRow>& rows);
 
 }  // namespace faultline

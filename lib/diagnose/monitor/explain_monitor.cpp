@@ -111,22 +111,22 @@ void ExplainMonitor::explain_window(bool is_followed) {
   const double end_s = window_.time.back(), kept_s = end_s - overlap_s;
   const double until_s = is_followed ? end_s - 0.5 * overlap_s : end_s;
   const ExplainedLog explained = explained_window();
-  const std::vector<Lasting> unfollowed = follow(explained.followed);
+  const std::vector<OngoingFault> unfollowed = follow(explained.followed);
   report_stretches(explained.stretches, until_s);
   for (const ExplainedFault& fault : explained.faults)
     if (fault.claim.onset_s <= until_s) report(fault, unfollowed);
   add_day(explained.day);
   judged_s_ += explained.judged_s;
   read_s_ += end_s - window_.time.front();
-  loudness_.resize(std::max(loudness_.size(), explained.loudness.size()), 0.0);
+  noise_level_.resize(std::max(noise_level_.size(), explained.loudness.size()), 0.0);
   for (std::size_t j = 0; j < explained.loudness.size(); ++j)
-    loudness_[j] = std::max(loudness_[j], explained.loudness[j]);
+    noise_level_[j] = std::max(noise_level_[j], explained.loudness[j]);
   if (is_followed) {
-    std::erase_if(lasting_, [&](const Lasting& l) { return l.claim.end_s <= kept_s; });
+    std::erase_if(ongoing_, [&](const OngoingFault& l) { return l.claim.end_s <= kept_s; });
     decided_s_ = until_s;
     keep_from(kept_s);
   } else {
-    lasting_.clear();
+    ongoing_.clear();
     decided_s_.reset();
     window_ = {};
     residuals_.clear();
@@ -136,7 +136,7 @@ void ExplainMonitor::explain_window(bool is_followed) {
 /// Explains the window given the faults that reach into it; finds no new faults if it has too few rows.
 ExplainedLog ExplainMonitor::explained_window() const {
   std::vector<FaultClaim> lasting;
-  for (const Lasting& l : lasting_)
+  for (const OngoingFault& l : ongoing_)
     if (l.is_handed_on()) lasting.push_back(l.claim);
   const SignalStretches signals = signals_of_window();
   if (complete_rows(window_) >= kFewestRows) {
@@ -173,14 +173,14 @@ void ExplainMonitor::report_stretches(const std::vector<JudgedStretch>& judged, 
 }
 
 /// Updates the faults that were handed on to a window by its claims; returns the other lasting ones.
-std::vector<ExplainMonitor::Lasting> ExplainMonitor::follow(const std::vector<FaultClaim>& followed) {
-  std::vector<Lasting> unfollowed;
-  std::erase_if(lasting_, [&](const Lasting& l) {
+std::vector<ExplainMonitor::OngoingFault> ExplainMonitor::follow(const std::vector<FaultClaim>& followed) {
+  std::vector<OngoingFault> unfollowed;
+  std::erase_if(ongoing_, [&](const OngoingFault& l) {
     if (!l.is_handed_on()) unfollowed.push_back(l);
     return !l.is_handed_on();
   });
   std::size_t k = 0;
-  for (Lasting& lasting : lasting_) {
+  for (OngoingFault& lasting : ongoing_) {
     lasting.claim = followed[k++];
     episodes_[lasting.episode].end_s = std::min(lasting.claim.end_s, window_.time.back());
   }
@@ -188,16 +188,16 @@ std::vector<ExplainMonitor::Lasting> ExplainMonitor::follow(const std::vector<Fa
 }
 
 /// Adds a fault of the window: a further episode, or an unknown one that goes on from the window before.
-void ExplainMonitor::report(const ExplainedFault& fault, const std::vector<Lasting>& unfollowed) {
+void ExplainMonitor::report(const ExplainedFault& fault, const std::vector<OngoingFault>& unfollowed) {
   const double end_s = std::min(fault.claim.end_s, window_.time.back());
   if (!unfollowed.empty() && decided_s_ && fault.claim.onset_s < *decided_s_) {
-    Lasting goes_on = unfollowed.front();
+    OngoingFault goes_on = unfollowed.front();
     goes_on.claim.end_s = fault.claim.end_s;
     episodes_[goes_on.episode].end_s = end_s;
-    lasting_.push_back(goes_on);
+    ongoing_.push_back(goes_on);
     return;
   }
-  lasting_.push_back({fault.claim, episodes_.size()});
+  ongoing_.push_back({fault.claim, episodes_.size()});
   episodes_.push_back(
       {fault, end_s, residuals_between(fault.claim.onset_s, fault.claim.onset_s + kEpisodeResiduals_s)});
 }

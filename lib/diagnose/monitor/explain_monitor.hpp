@@ -42,7 +42,7 @@ class ExplainMonitor {
   /// Share of the log whose rows count for the regression; 0 if no window could be explained.
   double judged_share() const { return read_s_ > 0.0 ? judged_s_ / read_s_ : 0.0; }
   /// By joint: noise level of the rows over that of the healthy logs, in the noisiest window.
-  const std::vector<double>& loudness() const { return loudness_; }
+  const std::vector<double>& loudness() const { return noise_level_; }
 
  private:
   void take_rows(const Log& segment, int begin, int end);
@@ -55,7 +55,7 @@ class ExplainMonitor {
   std::vector<JointResidual> residuals_between(double from_s, double to_s) const;
 
   /// A fault that reaches into the next window.
-  struct Lasting {
+  struct OngoingFault {
     FaultClaim claim;
     std::size_t episode = 0;
 
@@ -63,20 +63,20 @@ class ExplainMonitor {
     bool is_handed_on() const { return claim.kind != FaultKind::unknown || claim.end_s < kNeverEnds; }
   };
 
-  std::vector<Lasting> follow(const std::vector<FaultClaim>& followed);
-  void report(const ExplainedFault& fault, const std::vector<Lasting>& unfollowed);
+  std::vector<OngoingFault> follow(const std::vector<FaultClaim>& followed);
+  void report(const ExplainedFault& fault, const std::vector<OngoingFault>& unfollowed);
 
   const Model& model_;
   Log window_;
   std::deque<Residuals> residuals_;  ///< of the window
   std::optional<double> decided_s_;  ///< time up to which the windows before have decided
   std::size_t run_ = 0;
-  std::vector<Lasting> lasting_;
+  std::vector<OngoingFault> ongoing_;
   std::vector<MonitoredEpisode> episodes_;
   std::deque<SignalStretch> unjudged_;  ///< those that begin after decided_s_
   std::vector<JudgedStretch> stretches_;
   std::vector<DayEffect> day_;  ///< sums: value over variance, in `std` 1 over variance
-  std::vector<double> loudness_;
+  std::vector<double> noise_level_;
   double judged_s_ = 0.0, read_s_ = 0.0;  ///< over all windows
 };
 

@@ -15,7 +15,7 @@
 #include "lib/explain/explain_at.hpp"
 #include "lib/log/log.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"
-#include "lib/residual/relation/relation_watch.hpp"
+#include "lib/residual/relation/relation_detector.hpp"
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {
@@ -51,7 +51,7 @@ class RelationMonitor {
   /// `relations` outlive this.
   RelationMonitor(const std::vector<SignalRelation>& relations, bool by_tracking);
 
-  bool watches_any() const;
+  bool monitors_any() const;
   void take(const Log& segment);
   /// After the last segment.
   void finish();
@@ -64,7 +64,7 @@ class RelationMonitor {
   std::vector<double> beyond_s() const;
 
  private:
-  std::deque<RelationWatch> watches_;
+  std::deque<RelationDetector> watches_;
   std::vector<char> is_watched_;
 };
 
@@ -75,7 +75,7 @@ RelationMonitor::RelationMonitor(const std::vector<SignalRelation>& relations, b
   }
 }
 
-bool RelationMonitor::watches_any() const {
+bool RelationMonitor::monitors_any() const {
   return std::any_of(is_watched_.begin(), is_watched_.end(), [](char watched) { return watched != 0; });
 }
 
@@ -85,12 +85,12 @@ void RelationMonitor::take(const Log& segment) {
 }
 
 void RelationMonitor::finish() {
-  for (RelationWatch& watch : watches_) watch.finish();
+  for (RelationDetector& watch : watches_) watch.finish();
 }
 
 std::vector<RelationEpisode> RelationMonitor::episodes() const {
   std::vector<RelationEpisode> all;
-  for (const RelationWatch& watch : watches_)
+  for (const RelationDetector& watch : watches_)
     all.insert(all.end(), watch.episodes().begin(), watch.episodes().end());
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.onset_s < b.onset_s; });
@@ -99,20 +99,20 @@ std::vector<RelationEpisode> RelationMonitor::episodes() const {
 
 std::vector<double> RelationMonitor::judged_s() const {
   std::vector<double> out;
-  for (const RelationWatch& watch : watches_) out.push_back(watch.judged_s());
+  for (const RelationDetector& watch : watches_) out.push_back(watch.judged_s());
   return out;
 }
 
 std::vector<double> RelationMonitor::beyond_s() const {
   std::vector<double> out;
-  for (const RelationWatch& watch : watches_) out.push_back(watch.beyond_s());
+  for (const RelationDetector& watch : watches_) out.push_back(watch.beyond_s());
   return out;
 }
 
 /// The fault criterion applied to one series of outputs along a log.
-class CriterionWatch {
+class CriterionDetector {
  public:
-  CriterionWatch(const CriterionOptions& options, const OutputMeaning& meaning)
+  CriterionDetector(const CriterionOptions& options, const OutputMeaning& meaning)
       : options_(options), meaning_(meaning) {}
 
   void take(const Eigen::VectorXd& time, const Eigen::MatrixXd& outputs);
@@ -141,7 +141,7 @@ class SampleMonitor {
 
  private:
   const SampleClassifier& classifier_;
-  CriterionWatch average_, mlp_, rbfn_;
+  CriterionDetector average_, mlp_, rbfn_;
 };
 
 /// Returns the opinion of one network alone during an episode.
@@ -152,25 +152,25 @@ Opinion opinion_on(const SampleEpisode& episode, const std::vector<SampleEpisode
   return {};
 }
 
-CriterionWatch watch_of(const SampleMode& samples, const DiagnoseOptions& options) {
+CriterionDetector make_detector(const SampleMode& samples, const DiagnoseOptions& options) {
   CriterionOptions criterion =
       options.criterion == CriterionKind::consecutive ? samples.consecutive : samples.log_odds;
   if (options.g > 0) criterion.g = options.g;
   return {criterion, {samples.classifier.classes, samples.classifier.prior}};
 }
 
-void CriterionWatch::take(const Eigen::VectorXd& time, const Eigen::MatrixXd& outputs) {
+void CriterionDetector::take(const Eigen::VectorXd& time, const Eigen::MatrixXd& outputs) {
   for (const SampleEpisode& episode : apply_criterion(options_, meaning_, time, outputs, state_))
     episodes_.push_back(episode);
 }
 
-void CriterionWatch::finish() {
+void CriterionDetector::finish() {
   if (const auto open = open_episode(meaning_, state_)) episodes_.push_back(*open);
 }
 
 SampleMonitor::SampleMonitor(const SampleMode& samples, const DiagnoseOptions& options)
     : classifier_(samples.classifier),
-      average_(watch_of(samples, options)),
+      average_(make_detector(samples, options)),
       mlp_(average_),
       rbfn_(average_) {}
 
@@ -182,7 +182,7 @@ void SampleMonitor::take(const Residuals& residuals) {
 }
 
 void SampleMonitor::finish() {
-  for (CriterionWatch* each : {&average_, &mlp_, &rbfn_}) each->finish();
+  for (CriterionDetector* each : {&average_, &mlp_, &rbfn_}) each->finish();
 }
 
 std::vector<SampleAlarm> SampleMonitor::alarms() const {
@@ -207,9 +207,9 @@ bool lacks_torque(LogSource& log, const Model& model) {
 }
 
 /// Judges the second residuals of the whole log, before its torque balance. Rewinds the log after reading.
-RelationMonitor watched_relations(LogSource& log, const Model& model) {
+RelationMonitor monitored_relations(LogSource& log, const Model& model) {
   RelationMonitor out(model.relations, false);
-  if (!out.watches_any()) return out;
+  if (!out.monitors_any()) return out;
   EmptyRowsSource filled(log);
   for (Log segment; filled.next(segment);) out.take(segment);
   out.finish();
@@ -239,7 +239,7 @@ MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
 MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& options) {
   if (lacks_torque(log, model)) return monitor_tracking(log, model);
   const bool by_samples = options.mode == ClassifyMode::samples;
-  const RelationMonitor relations = by_samples ? RelationMonitor({}, false) : watched_relations(log, model);
+  const RelationMonitor relations = by_samples ? RelationMonitor({}, false) : monitored_relations(log, model);
   ExplainMonitor explained(model, stretches_of(relations.episodes(), model.robot.log.torque));
   SampleMonitor samples(model.samples, options);
   LogTally tally;

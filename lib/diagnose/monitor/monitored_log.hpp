@@ -8,7 +8,7 @@
 #include "lib/diagnose/sample_alarm.hpp"
 #include "lib/explain/day_effects.hpp"
 #include "lib/explain/signal_stretch.hpp"
-#include "lib/residual/relation/relation_watch.hpp"
+#include "lib/residual/relation/relation_detector.hpp"
 
 namespace faultline {
 

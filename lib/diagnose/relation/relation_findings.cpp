@@ -22,7 +22,7 @@ constexpr double kSettles_s = 0.1;  // and the latest time of its onset after th
 
 bool loses_torque(FaultKind kind) { return column_kind(kind) == FaultKind::torque_loss; }
 
-std::string what_strayed(const RelationEpisode& episode, const FaultClaim& claim, const std::string& size) {
+std::string target_name(const RelationEpisode& episode, const FaultClaim& claim, const std::string& size) {
   if (loses_torque(claim.kind))
     return fmt::format("the measured torque of joint {} is {:.0f} % below the commanded torque",
                        episode.joint + 1, 100.0 * claim.size[0]);
@@ -51,7 +51,7 @@ std::vector<EvidenceItem> evidence_of(const RelationEpisode& episode, const Judg
   const ExplainedFault& fault = judged.fault;
   std::vector<EvidenceItem> items;
   items.push_back({"decision", std::nan(""), "",
-                   what_strayed(episode, fault.claim, value_text(episode.mean) + " " + unit)});
+                   target_name(episode, fault.claim, value_text(episode.mean) + " " + unit)});
   items.push_back({"torque_difference", episode.mean, unit, "mean difference from onset to end"});
   for (EvidenceItem& item : limit_evidence(episode)) items.push_back(std::move(item));
   if (judged.in_balance > 0.0)

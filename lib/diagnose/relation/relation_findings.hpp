@@ -6,7 +6,7 @@
 #include "lib/diagnose/diagnosis.hpp"
 #include "lib/explain/signal_stretch.hpp"
 #include "lib/model/model.hpp"
-#include "lib/residual/relation/relation_watch.hpp"
+#include "lib/residual/relation/relation_detector.hpp"
 
 namespace faultline {
 

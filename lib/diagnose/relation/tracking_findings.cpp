@@ -21,7 +21,7 @@ constexpr double kFindingsSameTime_s = 0.1;  // gap between episodes of position
 
 /// Names the target of an episode or a relation.
 template <typename Tracked>
-const char* what_strayed(const Tracked& tracked) {
+const char* target_name(const Tracked& tracked) {
   return tracked.target == Quantity::q ? "position" : "velocity";
 }
 
@@ -55,8 +55,8 @@ bool rests_as_asked(const RelationEpisode& episode) {
 }
 
 EvidenceItem difference(const RelationEpisode& episode, const Chain& chain) {
-  return {fmt::format("{}_difference", what_strayed(episode)), episode.strongest, unit_of(episode, chain),
-          fmt::format("difference of the {} at its clearest moment", what_strayed(episode))};
+  return {fmt::format("{}_difference", target_name(episode)), episode.strongest, unit_of(episode, chain),
+          fmt::format("difference of the {} at its clearest moment", target_name(episode))};
 }
 
 std::string next_check_of(int joint) {
@@ -79,7 +79,7 @@ FaultFinding tracking_finding(const RelationEpisode& episode, const Chain& chain
       {"decision", std::nan(""), "",
        fmt::format("joint {} {}: the {} deviates by up to {} {}", episode.joint + 1,
                    still ? "stands still while its reference moves" : "does not follow its reference",
-                   what_strayed(episode), value_text(std::abs(episode.strongest)), unit_of(episode, chain))});
+                   target_name(episode), value_text(std::abs(episode.strongest)), unit_of(episode, chain))});
   finding.evidence.push_back(difference(episode, chain));
   for (EvidenceItem& item : limit_evidence(episode)) finding.evidence.push_back(std::move(item));
   finding.next_check = next_check_of(finding.label.joint);
@@ -165,7 +165,7 @@ std::vector<std::string> tracking_spots(const Model& model, const std::vector<do
       const WindowLimit& window = relation->windows[relation->windows.size() / 2];
       spots.push_back(fmt::format(
           "Joint {}: {} errors below {:.2g} {} over {:g} s cannot be distinguished from healthy motion.",
-          j + 1, what_strayed(*relation), window.limit, unit_of(*relation, model.robot.chain),
+          j + 1, target_name(*relation), window.limit, unit_of(*relation, model.robot.chain),
           window.window_s));
     }
     if (!joint.is_known)

@@ -7,7 +7,7 @@
 
 #include "lib/diagnose/diagnosis.hpp"
 #include "lib/model/model.hpp"
-#include "lib/residual/relation/relation_watch.hpp"
+#include "lib/residual/relation/relation_detector.hpp"
 
 /// Findings of a log without torque: how the joints follow their references.
 namespace faultline {

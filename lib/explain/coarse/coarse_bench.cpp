@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 constexpr int kSameSamples = 3;  // between two onsets that count as one
 /// Shares of each state tolerated as errors of a wrong onset: a sample's worth, then a fifth each time.
-constexpr std::array<double, 4> kForgivenInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
+constexpr std::array<double, 4> kToleratedInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
 constexpr int kStepsForEach = 2;           // steps of Newton at each of these shares, at most
 constexpr double kNearSize = 0.2;          // relative difference of sizes that can share their steps
 constexpr double kLeastDuration_s = 1e-3;  // shortest duration of a fault
@@ -31,11 +31,11 @@ bool are_near(const VectorXd& a, const VectorXd& b) {
 /// Moves the guess towards its best onset and size. Errors of a wrong onset are tolerated at first, then less
 /// and less, so that Newton steps converge from a sample away.
 CoarseGuess approached(const CoarseLog& log, CoarseGuess guess, std::shared_ptr<const CoarseSteps> known) {
-  for (const double forgiven : kForgivenInTurn)
+  for (const double tolerated_share : kToleratedInTurn)
     for (int k = 0; k < kStepsForEach; ++k) {
       if (known && !are_near(known->size, guess.start)) known.reset();
       const std::optional<NewtonStep> step =
-          newton_step(log, guess, {.move_onset = true, .forgiven = forgiven, .known = known});
+          newton_step(log, guess, {.move_onset = true, .tolerated_share = tolerated_share, .known = known});
       if (!step) return guess;
       guess = step->guess;
       known = step->steps;
@@ -140,7 +140,7 @@ void CoarseBench::integrate_best() {
   const auto winner = std::max_element(
       best.begin(), best.end(), [](const JudgedGuess& a, const JudgedGuess& b) { return a.gain < b.gain; });
   if (winner == best.end()) return;
-  const bool is_any = winner->fit.mean_square() > kMuchLeft;
+  const bool is_any = winner->fit.mean_square() > kLargeResidual;
   const double enough = kMayWin * winner->gain;
   for (const JudgedGuess& j : std::vector<JudgedGuess>(best))
     if ((is_any || j.gain > enough) && moves_anew(j.kind))

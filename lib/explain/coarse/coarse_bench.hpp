@@ -49,7 +49,7 @@ class CoarseBench {
 };
 
 inline constexpr double kLongSample_s = 0.05;  ///< longer samples bound a Newton step by a share of them
-inline constexpr double kMuchLeft = 3.0;       ///< mean square of residuals above which a fit may be wrong
+inline constexpr double kLargeResidual = 3.0;  ///< mean square of residuals above which a fit may be wrong
 inline constexpr double kSettled_s = 2e-4;     ///< an onset that moves less is settled
 
 /// Returns whether a fault of the kind changes numbers of the law of motion, and lasts.

@@ -77,14 +77,14 @@ JointMatrix inertia_at(const CoarseLog& log, int sample) {
 /// Returns the covariance of the prediction error. A joint that locks halts at an uncertain moment, and the
 /// speeds of the joints coupled to it jump.
 MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const LinearSteps& steps, int from,
-                    double forgiven) {
+                    double tolerated_share) {
   const int n = log.joints(), j = guess.joint - 1;
   MatrixXd std = log.force_std;
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < steps.intervals; ++k)
       std(i, k) = log.stop(i, k) > 0.0
                       ? kUnknownForce * log.model->torque_rms[i]
-                      : elementary::hypot(std(i, k), forgiven_torque(forgiven) * log.log.tau(k, i));
+                      : elementary::hypot(std(i, k), tolerated_torque(tolerated_share) * log.log.tau(k, i));
   if (guess.kind == FaultKind::unknown)
     std.row(j)
         .tail(steps.intervals - std::max(0, from - 1))
@@ -126,7 +126,7 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   const OneStepModel& m = *log.model;
   const int n = log.joints(), j = guess.joint - 1, from = log.log.first_row(guess.onset_s);
   const FaultDirections fault = fault_directions(m, guess.kind, guess.joint);
-  const bool reading = reads_wrong(guess.kind);
+  const bool reading = falsifies_position(guess.kind);
   const int sizes = static_cast<int>(fault.std.size()), effects = static_cast<int>(log.day.cols());
   const VectorXd usual = numbers_with(log, at.day, {}, {});
   const MotionLaw healthy(m.body, usual);
@@ -153,8 +153,8 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   if (sizes > 0) directions.leftCols(sizes) = fault.direction;
   in.column = out.steps.columns(log.day, directions);
   if (how.move_onset) add_onset_column(log, plan, guess, at.about, in.column, columns);
-  in.process = process_of(log, guess, out.steps, from, how.forgiven);
-  in.variance = log.variance.colwise() + forgiven_variance(m, how.forgiven);
+  in.process = process_of(log, guess, out.steps, from, how.tolerated_share);
+  in.variance = log.variance.colwise() + tolerated_variance(m, how.tolerated_share);
   if (guess.kind == FaultKind::stuck_encoder) {
     const JointMatrix inertia = inertia_at(log, std::max(0, from - 1));
     for (int i = 0; i < n; ++i) {
@@ -173,7 +173,7 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
     in.read_column = effects;
     in.read = read_column(log, guess, from);
     if (at.size.size() > 0) in.reading -= at.size[0] * in.read;
-    out.precision[effects] = 1.0 / Eigen::numext::abs2(usual_reading_error(m, j));
+    out.precision[effects] = 1.0 / Eigen::numext::abs2(prior_position_error(m, j));
   }
   if (at.size.size() > 0) out.about.segment(effects, at.size.size()) = at.size;
   if (how.move_onset) out.precision[columns - 1] = 1.0 / (log.period_s() * log.period_s());
@@ -221,7 +221,8 @@ CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, cons
 
 VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const VectorXd& size) {
   VectorXd std = fault_directions(*log.model, guess.kind, guess.joint).std;
-  if (reads_wrong(guess.kind)) std = VectorXd::Constant(1, usual_reading_error(*log.model, guess.joint - 1));
+  if (falsifies_position(guess.kind))
+    std = VectorXd::Constant(1, prior_position_error(*log.model, guess.joint - 1));
   VectorXd out = size.cwiseMax(-kMostColumns * std).cwiseMin(kMostColumns * std);
   if (guess.kind == FaultKind::torque_loss) out[0] = std::clamp(out[0], 0.0, kMostLossOfStart);
   if (guess.kind == FaultKind::payload_change)
@@ -235,7 +236,7 @@ CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
   const auto sizes = fault_directions(*log.model, guess.kind, guess.joint).std.size();
   out.log_likelihood = -kImpossibleAtCoarse;
   out.day = VectorXd::Zero(log.day.cols());
-  out.size = VectorXd::Zero(sizes + (reads_wrong(guess.kind) ? 1 : 0));
+  out.size = VectorXd::Zero(sizes + (falsifies_position(guess.kind) ? 1 : 0));
   out.left = out.log_ratio = MatrixXd::Zero(log.read.rows(), log.read.cols());
   out.variance = MatrixXd::Ones(log.read.rows(), log.read.cols());
   out.day_column = MatrixXd::Zero(log.read.size(), log.day.cols());
@@ -245,18 +246,18 @@ CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
 
 }  // namespace
 
-VectorXd forgiven_variance(const OneStepModel& m, double forgiven) {
+VectorXd tolerated_variance(const OneStepModel& m, double tolerated_share) {
   VectorXd range(2 * m.joints());
   range << m.q_high - m.q_low, m.top_speed;
-  return (forgiven * range).cwiseAbs2();
+  return (tolerated_share * range).cwiseAbs2();
 }
 
-double forgiven_torque(double forgiven) { return kTorqueForState * forgiven; }
+double tolerated_torque(double tolerated_share) { return kTorqueForState * tolerated_share; }
 
 CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how) {
   const int n = log.joints(), j = guess.joint - 1, from = log.log.first_row(guess.onset_s);
   const int late = log.samples() - from;
-  const bool reading = reads_wrong(guess.kind), locked = guess.kind == FaultKind::locked && late > 0;
+  const bool reading = falsifies_position(guess.kind), locked = guess.kind == FaultKind::locked && late > 0;
   Setup at{VectorXd::Zero(log.day.cols()), guess.start, log.about};
   const bool same_rest = how.known && log.log.first_row(how.known->begin_s) == from;
   if (how.known && (!locked || same_rest))

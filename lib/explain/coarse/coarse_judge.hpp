@@ -20,9 +20,9 @@ struct CoarseGuess {
 };
 
 struct CoarseJudging {
-  int rounds = 1;           ///< of integration and regression in turn; the first uses known steps
-  bool move_onset = false;  ///< the onset is a further unknown
-  double forgiven = 0.0;    ///< share of each state and torque that is tolerated as an error
+  int rounds = 1;                ///< of integration and regression in turn; the first uses known steps
+  bool move_onset = false;       ///< the onset is a further unknown
+  double tolerated_share = 0.0;  ///< share of each state and torque that is tolerated as an error
   /// Steps of a guess of the same kind and joint, for the first round; null: those of the healthy robot, for
   /// intervals without the fault or if the guess has no size to begin with.
   std::shared_ptr<const CoarseSteps> known{};
@@ -33,8 +33,9 @@ struct CoarseJudging {
 CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how);
 
 /// Returns the variance to add to each measurement (2 joints), and the standard deviation to add to a torque
-/// by its size, if errors of a share `forgiven` of each joint's range, top speed and torque are tolerated.
-Eigen::VectorXd forgiven_variance(const OneStepModel& model, double forgiven);
-double forgiven_torque(double forgiven);
+/// by its size, if errors of a share `tolerated_share` of each joint's range, top speed and torque are
+/// tolerated.
+Eigen::VectorXd tolerated_variance(const OneStepModel& model, double tolerated_share);
+double tolerated_torque(double tolerated_share);
 
 }  // namespace faultline

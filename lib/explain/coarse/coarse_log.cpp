@@ -14,8 +14,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMuchDoubt = 1.0;      // share of usual and logged torque that may be missing (std)
-constexpr int kSmoothings = 4;          // rounds of smoothing: a force as large as the torque converges
+constexpr double kMissingTorqueStd = 1.0;  // share of usual and logged torque that may be missing (std)
+constexpr int kSmoothings = 4;             // rounds of smoothing: a force as large as the torque converges
 constexpr double kStillChanges = 30.0;  // standard deviations of a measurement that the last round may change
 constexpr int kHealthyRounds = 2;       // of integration and regression for the healthy robot
 constexpr double kFirstOnset_s = 0.5;   // s at the start of a log, in which no onset is searched,
@@ -62,8 +62,8 @@ SmoothedLog smoothed_log(const CoarseLog& log) {
   Trajectory about = log.read;
   const auto torque = log.log.tau.topRows(log.samples() - 1).transpose();
   const MatrixXd doubt =
-      (log.force_std.cwiseAbs2() + kMuchDoubt * kMuchDoubt * torque.cwiseAbs2()).colwise() +
-      kMuchDoubt * kMuchDoubt * m.torque_rms.cwiseAbs2();
+      (log.force_std.cwiseAbs2() + kMissingTorqueStd * kMissingTorqueStd * torque.cwiseAbs2()).colwise() +
+      kMissingTorqueStd * kMissingTorqueStd * m.torque_rms.cwiseAbs2();
   MatrixXd missing = MatrixXd::Zero(n, log.samples() - 1);
   int settled = 0;
   FilterInput in;
@@ -170,7 +170,7 @@ std::optional<CoarseLog> settled_part(const CoarseLog& log) {
   return followed_log(first_rows(log.log, log.settled), *log.model);
 }
 
-bool repeats_tell(const OneStepModel& model, int joint) {
+bool repeats_are_evidence(const OneStepModel& model, int joint) {
   return model.longest_repeat[joint] < kFewestRepeats &&
          model.reading_variance[joint] > kTellingNoise * kTellingNoise;
 }

@@ -58,14 +58,14 @@ double coarse_price(const CoarseLog& log, const CoarseGuess& guess, const Coarse
     case FaultKind::stuck_encoder: {
       if (share_repeated(log, j, from) < kStuckShare) return kCodesMove;
       const double kept = log.keep.row(j).tail(late).sum();
-      const double evidence = repeats_tell(*log.model, j)
+      const double evidence = repeats_are_evidence(*log.model, j)
                                   ? std::min(repeats_from(log, j, from), kMostRepeats) *
                                         elementary::log(1.0 / log.model->repeat_share[j])
                                   : 0.0;
       return kStillJoint + kUnreadSample * kept + price_of_new_code(log, j, from) - evidence;
     }
     case FaultKind::locked:
-      return kStillJoint + (share_repeated(log, j, from) > kStuckShare && repeats_tell(*log.model, j)
+      return kStillJoint + (share_repeated(log, j, from) > kStuckShare && repeats_are_evidence(*log.model, j)
                                 ? kRepeatedReading * late
                                 : 0.0);
     case FaultKind::unknown:

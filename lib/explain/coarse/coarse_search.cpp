@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 constexpr std::array<double, 3> kBlow_s = {0.05, 0.15, 0.4};  // lengths of a collision that are tried
 constexpr double kOnsetStep_s = 0.05;                         // between two onsets at least
-constexpr double kForgiven = 0.002;                           // share of each state: error of a linear column
+constexpr double kTolerated = 0.002;                          // share of each state: error of a linear column
 constexpr double kWindow_s = 6.0;                             // of the log after an onset that are evaluated
 constexpr int kFewestWindow = 60;                             // samples of this window, at least
 constexpr double kRoughStep_s = 1.0;                          // between two onsets of the rough search
@@ -73,7 +73,7 @@ Catalogue catalogue(const CoarseLog& log) {
     for (int j = 1; j <= n; ++j) {
       (kind == FaultKind::sensor_bias ? out.bias : out.drift).push_back(next);
       out.length.push_back(0);
-      out.groups.push_back({kind, j, 0.0, {next++}, VectorXd::Constant(1, usual_reading_error(m, j - 1))});
+      out.groups.push_back({kind, j, 0.0, {next++}, VectorXd::Constant(1, prior_position_error(m, j - 1))});
     }
   return out;
 }
@@ -87,7 +87,7 @@ struct Base {
   VectorXd left;        ///< the same without the effects of the day
 };
 
-Base base_of(const CoarseLog& log, double forgiven) {
+Base base_of(const CoarseLog& log, double tolerated_share) {
   const OneStepModel& m = *log.model;
   const int n = log.joints();
   FilterInput in;
@@ -97,10 +97,10 @@ Base base_of(const CoarseLog& log, double forgiven) {
     for (int k = 0; k < std.cols(); ++k)
       std(i, k) = log.stop(i, k) > 0.0
                       ? 30.0 * m.torque_rms[i]
-                      : elementary::hypot(std(i, k), forgiven_torque(forgiven) * log.log.tau(k, i));
+                      : elementary::hypot(std(i, k), tolerated_torque(tolerated_share) * log.log.tau(k, i));
   in.process = process_covariance(log.healthy_steps, m.layout(), std);
   in.reading = log.read - log.about;
-  in.variance = log.variance.colwise() + forgiven_variance(m, forgiven);
+  in.variance = log.variance.colwise() + tolerated_variance(m, tolerated_share);
   Base out;
   out.filter = innovations(log.healthy_steps, in);
   const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());
@@ -257,10 +257,10 @@ bool stands_out(const CoarseLog& log) {
   return false;
 }
 
-std::optional<int> first_strike(const CoarseLog& log) { return strike_of(log, base_of(log, kForgiven)); }
+std::optional<int> first_strike(const CoarseLog& log) { return strike_of(log, base_of(log, kTolerated)); }
 
 CoarseSearch search_coarse(const CoarseLog& log) {
-  const Base base = base_of(log, kForgiven);
+  const Base base = base_of(log, kTolerated);
   const int step = std::max(1, static_cast<int>(std::lround(kOnsetStep_s / log.period_s())));
   const int window = std::max(kFewestWindow, static_cast<int>(kWindow_s / log.period_s()));
   CoarseSearch out;

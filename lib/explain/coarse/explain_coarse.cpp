@@ -18,10 +18,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnexplained = 0.3;       // share of the healthy robot's excess over noise: more is unknown
-constexpr std::size_t kJudged = 14;        // candidates of the search that are rated, best first
-constexpr std::size_t kApproached = 8;     // guesses that are moved towards their best onset
-constexpr double kForgivenAtFirst = 5e-3;  // share of each state that is tolerated as error, to choose these
+constexpr double kUnexplained = 0.3;      // share of the healthy robot's excess over noise: more is unknown
+constexpr std::size_t kJudged = 14;       // candidates of the search that are rated, best first
+constexpr std::size_t kApproached = 8;    // guesses that are moved towards their best onset
+constexpr double kFirstTolerated = 5e-3;  // share of each state that is tolerated as error, to choose these
 constexpr std::size_t kOnsetsForAllKinds = 2;  // onsets at which every linear kind is tried
 constexpr std::size_t kMoved = 4;              // hypotheses whose onset is refined
 constexpr int kMostMoves = 24;                 // rounds of moves of an onset, at most
@@ -63,7 +63,8 @@ void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
   };
   std::vector<Rated> rated;
   for (const CoarseGuess& guess : guesses_of(search, bench)) {
-    const CoarseExplanation e = judge_coarse(bench.log, guess, {.rounds = 1, .forgiven = kForgivenAtFirst});
+    const CoarseExplanation e =
+        judge_coarse(bench.log, guess, {.rounds = 1, .tolerated_share = kFirstTolerated});
     rated.push_back({guess, e.log_likelihood, e.steps});
   }
   std::stable_sort(rated.begin(), rated.end(),
@@ -218,7 +219,7 @@ EvidenceCourse course_of(const CoarseLog& log, const FaultHypothesis& hypothesis
 
 double misfit_of(const LogExplanation& e, const FaultHypothesis& h) {
   const double left = h.fit.mean_square();
-  const bool much = left > kMuchLeft && left - 1.0 > kUnexplained * (e.healthy_square - 1.0);
+  const bool much = left > kLargeResidual && left - 1.0 > kUnexplained * (e.healthy_square - 1.0);
   return much ? std::numeric_limits<double>::infinity() : 0.0;
 }
 

@@ -51,7 +51,7 @@ std::vector<FaultLabel> fault_labels_of(const OneStepModel& model) {
   return fault_labels(model.joints(), payload_links(model.body.rigid().chain), model.torque_is_measured);
 }
 
-double usual_reading_error(const OneStepModel& model, int joint) {
+double prior_position_error(const OneStepModel& model, int joint) {
   return model.body.rigid().chain.geometry[joint].kind == AxisKind::revolute ? 0.1 : 0.03;
 }
 

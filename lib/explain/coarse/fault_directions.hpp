@@ -21,6 +21,6 @@ FaultDirections fault_directions(const OneStepModel& model, FaultKind kind, int 
 /// Returns the kinds and joints of the faults that are judged.
 std::vector<FaultLabel> fault_labels_of(const OneStepModel& model);
 /// Returns the prior standard deviation of a false position (rad or m) and of a drift (rad/s or m/s).
-double usual_reading_error(const OneStepModel& model, int joint);
+double prior_position_error(const OneStepModel& model, int joint);
 
 }  // namespace faultline

@@ -79,7 +79,7 @@ struct DriftingPosition {
 };
 
 DriftingPosition drifting_position(const LogFit& fit, int j) {
-  JointReading moved = reading_of(fit.log(), j);
+  MeasuredMotion moved = reading_of(fit.log(), j);
   moved.q.array() += kShift;
   DriftingPosition out;
   out.slope = (fit.residual_of(moved, j, fit.log().start_s) - fit.residual()) / kShift;

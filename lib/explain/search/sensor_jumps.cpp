@@ -114,15 +114,13 @@ double jump_evidence(const LogFit& fit, const FaultClaim& claim) {
   return std::clamp(0.5 * (jump * jump - left * left) / variance, 0.0, kMostOfJump);
 }
 
-bool repeats_say_something(const BalanceModel& model, int j) {
-  return model.longest_repeat[j] < kManyRepeats;
-}
+bool repeats_are_rare(const BalanceModel& model, int j) { return model.longest_repeat[j] < kManyRepeats; }
 
 std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int j) {
   const UniformLog& log = fit.log();
   const BalanceModel& m = fit.model();
   const double least =
-      repeats_say_something(m, j) ? std::max(6, 2 * m.longest_repeat[j]) : 0.1 / m.setting.period_s;
+      repeats_are_rare(m, j) ? std::max(6, 2 * m.longest_repeat[j]) : 0.1 / m.setting.period_s;
   std::vector<std::pair<int, RepeatedCode>> runs;  // with their samples
   for (int first = 0; first < log.rows();) {
     int next = first + 1;

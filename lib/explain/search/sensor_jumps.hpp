@@ -21,7 +21,7 @@ std::vector<SensorJump> sensor_jumps(const LogFit& fit, int joint);
 double jump_evidence(const LogFit& fit, const FaultClaim& claim);
 
 /// Returns whether repeated codes of a position are evidence: healthy logs repeat it for a few samples only.
-bool repeats_say_something(const BalanceModel& model, int joint);
+bool repeats_are_rare(const BalanceModel& model, int joint);
 
 /// A position that repeats one code for longer than healthy logs show.
 struct RepeatedCode {

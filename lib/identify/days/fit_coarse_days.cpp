@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/days/fit_coarse_days.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -15,7 +13,6 @@
 #include "lib/balance/regressor.hpp"
 #include "lib/balance/rows.hpp"
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/day_arrow.hpp"
 #include "lib/identify/days/payload_columns.hpp"
@@ -51,7 +48,7 @@ constexpr int kStartRows = 300;       // of each log, whose predictions select t
 constexpr double kStartRidge = 1e-6;  // of each parameter's own square sum
 
 /// Returns the columns that links contribute to: rotor inertia is not identifiable at coarse rates.
-std::vector<int> of_links(const RigidColumns& rigid) {
+std::vector<int> link_columns(const RigidColumns& rigid) {
   std::vector<int> out;
   for (int p = 0; p < rigid.base(); ++p)
     if (!is_rotor(rigid, p)) out.push_back(p);
@@ -59,7 +56,7 @@ std::vector<int> of_links(const RigidColumns& rigid) {
 }
 
 /// Sets ranges, top speeds, torque rms and repeated positions from the healthy logs.
-void take_looks(const std::vector<UniformLog>& logs, OneStepModel& m) {
+void set_healthy_motion(const std::vector<UniformLog>& logs, OneStepModel& m) {
   const int n = logs.front().joints();
   m.q_low = VectorXd::Constant(n, 1e300);
   m.q_high = -m.q_low;
@@ -335,13 +332,6 @@ ParameterSpace with_settled_lengths(const Robot& robot, ParameterSpace space, co
   return space;
 }
 
-Error predictions_diverge(double period_s) {
-  constexpr auto kMessage =
-      "no robot predicts their motion over one sample period of {:.3g} s. State how the torque acts between "
-      "samples ([log] torque_between_samples), or give logs with slower moves or a shorter sample period";
-  return {ErrorCode::input, "the healthy logs", fmt::format(kMessage, period_s)};
-}
-
 }  // namespace
 
 OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& robot,
@@ -349,12 +339,12 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
   const std::vector<UniformLog> logs = uniform_logs(sources);
   OneStepModel m;
   RigidColumns rigid{space.chain, space.lift};
-  const std::vector<int> kept = of_links(rigid);
+  const std::vector<int> kept = link_columns(rigid);
   rigid.lift = space.lift(Eigen::all, kept).eval();
   m.body = MotionBody(std::move(rigid), VectorXd::Constant(space.joints(), kFrictionWidth));
   m.setting.period_s = logs.front().period_s;
   m.setting.torque_is_held = options.torque_is_held;
-  take_looks(logs, m);
+  set_healthy_motion(logs, m);
   m.reading_variance = first_reading_variance(logs);
   m.theta = coarse_start(logs, m, parameters_of(space, robot.chain, 0.0)(kept), robot.chain.friction);
   const MotionLayout at = m.layout();
@@ -386,7 +376,6 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
     between = effect_moments(blocks, fit.estimate).square.cwiseMax(least);
     m.reading_variance = (square / samples).cwiseMax(kLeastReading * kLeastReading);
   }
-  if (!m.theta.allFinite() || !m.reading_variance.allFinite()) throw predictions_diverge(m.setting.period_s);
   m.payload = payload_columns(with_settled_lengths(robot, space, kept, m, covariance))(kept, Eigen::all);
   m.carried_kg = carried_masses(logs, m);
   m.day_variance = least + kCoarseUnseen * (between - least);

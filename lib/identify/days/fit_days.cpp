@@ -58,7 +58,7 @@ int samples_averaged(double period_s) {
 }
 
 /// Returns the model with ranges, top speeds, noise and repeated positions of the healthy logs.
-BalanceModel with_looks(const std::vector<HealthyDay>& days, BalanceModel m) {
+BalanceModel with_healthy_motion(const std::vector<HealthyDay>& days, BalanceModel m) {
   const int n = m.joints();
   std::vector<VectorXd> q, dq;
   m.q_low = VectorXd::Constant(n, 1e300);
@@ -108,7 +108,7 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   m.setting.averaged = samples;
   m.setting = with_chosen_lag_and_widths(uniform, m.rigid, m.setting);
   for (UniformLog& log : uniform) draft.days.push_back({.log = std::move(log)});
-  m = with_looks(draft.days, std::move(m));
+  m = with_healthy_motion(draft.days, std::move(m));
   draft = with_rows(std::move(draft));
   std::vector<BalanceRows> rows;
   for (const HealthyDay& day : draft.days) rows.push_back(day.rows);
@@ -195,7 +195,7 @@ VectorXd all_parameters(const BalanceModel& m, const std::vector<int>& free, con
 /// autoregression.
 DayDraft with_noise(DayDraft draft, int order) {
   BalanceModel& m = draft.model;
-  std::vector<LeftOver> left;
+  std::vector<LogResidual> left;
   for (const HealthyDay& day : draft.days)
     left.push_back({&day.rows, left_over(day, m.theta), {}, rows_near_change(day, m)});
   m.noise = with_variance(left, m.setting, std::move(m.noise));

@@ -35,7 +35,7 @@ std::vector<int> rows_of_friction(const HealthyDay& day, const BalanceModel& m) 
 
 /// Returns the squared residual of joint `j` on a day with the friction width and the spring of `setting`,
 /// after a new fit of level and slope of the friction.
-double left_with(const HealthyDay& day, const BalanceModel& m, int j, const RowSetting& setting) {
+double residual_with(const HealthyDay& day, const BalanceModel& m, int j, const RowSetting& setting) {
   const ColumnLayout at = m.layout();
   const MatrixXd& column = day.rows.column[j];
   VectorXd y = left_over(day, m.theta).col(j);
@@ -51,9 +51,9 @@ double left_with(const HealthyDay& day, const BalanceModel& m, int j, const RowS
   return y.squaredNorm() - product.dot(square.ldlt().solve(product));
 }
 
-double left_with(const DayDraft& draft, int j, const RowSetting& setting) {
+double residual_with(const DayDraft& draft, int j, const RowSetting& setting) {
   double out = 0.0;
-  for (const HealthyDay& day : draft.days) out += left_with(day, draft.model, j, setting);
+  for (const HealthyDay& day : draft.days) out += residual_with(day, draft.model, j, setting);
   return out;
 }
 
@@ -68,9 +68,9 @@ struct Column {
   std::vector<double> q, dq, torque, left;
 };
 
-Column column_of(const std::vector<LeftOver>& logs, int j) {
+Column column_of(const std::vector<LogResidual>& logs, int j) {
   Column out;
-  for (const LeftOver& log : logs)
+  for (const LogResidual& log : logs)
     for (int k = 0; k < log.rows->rows(); ++k) {
       if (log.rows->lost[k] || (!log.not_counted.empty() && log.not_counted[k])) continue;
       out.q.push_back(log.rows->q(k, j));
@@ -105,7 +105,7 @@ double explained(const Column& c, double rate, double kernel_s) {
 
 /// Returns, for each joint, the rate whose sine and cosine, alone and times the torque, explain most of its
 /// residual, if that is more than a twentieth. `range` is that of each joint.
-std::vector<RippleRate> find_ripples_in_rows(const std::vector<LeftOver>& logs, const RowSetting& setting,
+std::vector<RippleRate> find_ripples_in_rows(const std::vector<LogResidual>& logs, const RowSetting& setting,
                                              const Eigen::VectorXd& range) {
   std::vector<RippleRate> out;
   for (int j = 0; j < setting.joints(); ++j) {
@@ -135,7 +135,7 @@ DayDraft with_refined_widths(DayDraft draft) {
     for (int k = 0; k <= last; ++k) {
       RowSetting setting = m.setting;
       setting.friction_width[j] *= kWidthFactors[k];
-      left[k] = left_with(draft, j, setting);
+      left[k] = residual_with(draft, j, setting);
     }
     const int best = static_cast<int>(std::min_element(left.begin(), left.end()) - left.begin());
     const auto log_factor = [](int k) { return elementary::log(kWidthFactors[k]); };
@@ -157,7 +157,7 @@ DayDraft with_chosen_springs(DayDraft draft) {
     const auto left = [&](double compliance) {
       RowSetting setting = m.setting;
       setting.compliance[j] = compliance;
-      return left_with(draft, j, setting);
+      return residual_with(draft, j, setting);
     };
     draft.used[spring] = draft.used[spring] && m.compliance(j) > 0.0 &&
                          0.5 * rows * elementary::log(left(0.0) / left(m.compliance(j))) > kClearSpring;
@@ -172,7 +172,7 @@ BalanceModel with_compliance(BalanceModel m) {
 
 DayDraft with_ripples(DayDraft draft) {
   BalanceModel& m = draft.model;
-  std::vector<LeftOver> left;
+  std::vector<LogResidual> left;
   for (const HealthyDay& day : draft.days)
     left.push_back({&day.rows, left_over(day, m.theta), {}, rows_near_change(day, m)});
   m.setting.ripples = find_ripples_in_rows(left, m.setting, m.q_high - m.q_low);

@@ -16,9 +16,9 @@
 namespace faultline {
 namespace {
 
-constexpr int kProbes = 64;             // positions at which the inertia matrix is checked
-constexpr double kDefinite = 1e-4;      // least eigenvalue of the inertia matrix scaled to a unit diagonal
-constexpr double kFrictionDoubt = 4.0;  // standard deviations: friction farther below zero is infeasible
+constexpr int kProbes = 64;              // positions at which the inertia matrix is checked
+constexpr double kDefinite = 1e-4;       // least eigenvalue of the inertia matrix scaled to a unit diagonal
+constexpr double kInfeasibleStds = 4.0;  // standard deviations: friction farther below zero is infeasible
 constexpr double kPrior = 0.01;  // weight of the robot's own bodies, against residuals in standard deviations
 constexpr double kLeastFriction = 1e-6;       // N m s/rad, N m, N s/m or N
 constexpr double kFeasibleLeastScale = 1e-4;  // least scale of the robot file's bodies: they stay positive
@@ -92,7 +92,7 @@ std::string infeasibility(const ParameterSpace& space, const Eigen::VectorXd& pa
     if ((space.base[p].is_mass || space.base[p].is_rotor) && parameters[p] < -kRounding)
       return fmt::format("{} was estimated as {:.4g} {}", space.name(p), parameters[p], space.unit(p));
   for (int p = space.rigid(); p < space.offset(0); ++p)
-    if (parameters[p] < -kFrictionDoubt * std::sqrt(covariance(p, p)))
+    if (parameters[p] < -kInfeasibleStds * std::sqrt(covariance(p, p)))
       return fmt::format("{} was estimated as {:.4g} {}", space.name(p), parameters[p], space.unit(p));
   if (!positive_definite(chain_from(space, parameters), q_low, q_high))
     return "the inertia matrix was not positive definite over the range of the motion";

@@ -41,13 +41,13 @@ Matrix3d jerk_covariance(double h) {
   return q;
 }
 
-struct Belief {
+struct FilterState {
   Vector3d mean = Vector3d::Zero();
   Matrix3d covariance = Matrix3d::Zero();
 };
 
-Belief first_belief(const JointMotion& m, const MotionNoise& noise) {
-  Belief b;
+FilterState initial_state(const JointMotion& m, const MotionNoise& noise) {
+  FilterState b;
   const int last = std::min(m.rows() - 1, 4);
   const double span = m.time[last] - m.time[0];
   b.mean[0] = m.q[0];
@@ -58,7 +58,7 @@ Belief first_belief(const JointMotion& m, const MotionNoise& noise) {
 }
 
 /// Updates the state by one measurement of component i; returns its log likelihood without constants.
-double update(Belief& b, int i, double measured, double std) {
+double update(FilterState& b, int i, double measured, double std) {
   const double variance = b.covariance(i, i) + std * std, error = measured - b.mean[i];
   const Vector3d gain = b.covariance.col(i) / variance;
   b.mean += gain * error;
@@ -66,21 +66,21 @@ double update(Belief& b, int i, double measured, double std) {
   return -0.5 * (elementary::log(variance) + error * error / variance);
 }
 
-double take_row(Belief& b, const JointMotion& m, const MotionNoise& noise, int k) {
+double take_row(FilterState& b, const JointMotion& m, const MotionNoise& noise, int k) {
   double likelihood = 0.0;
   if (!m.q_off[k]) likelihood += update(b, 0, m.q[k], noise.q_std);
   if (m.dq.size() > 0 && !m.dq_off[k]) likelihood += update(b, 1, m.dq[k], noise.dq_std);
   return likelihood;
 }
 
-void predict(Belief& b, double h, double jerk_density) {
+void predict(FilterState& b, double h, double jerk_density) {
   const Matrix3d f = transition(h);
   b.mean = f * b.mean;
   b.covariance = f * b.covariance * f.transpose() + jerk_density * jerk_covariance(h);
 }
 
 double log_likelihood(const JointMotion& m, const MotionNoise& noise) {
-  Belief b = first_belief(m, noise);
+  FilterState b = initial_state(m, noise);
   double sum = 0.0;
   for (int k = 0; k < m.rows(); ++k) {
     if (k > 0) predict(b, m.time[k] - m.time[k - 1], noise.jerk_density);
@@ -142,8 +142,8 @@ SmoothMotion smooth_motion(const JointMotion& measured, const MotionNoise& level
   const JointMotion m = in_periods(measured);
   const MotionNoise noise = in_periods(level);
   const int n = m.rows();
-  std::vector<Belief> filtered(n), predicted(n);
-  Belief b = first_belief(m, noise);
+  std::vector<FilterState> filtered(n), predicted(n);
+  FilterState b = initial_state(m, noise);
   for (int k = 0; k < n; ++k) {
     if (k > 0) predict(b, m.time[k] - m.time[k - 1], noise.jerk_density);
     predicted[k] = b;

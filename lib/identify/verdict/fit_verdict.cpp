@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/identify/excitation/tell_excitation.hpp"
+#include "lib/identify/excitation/motion_excitation.hpp"
 #include "lib/identify/verdict/single_log_fits.hpp"
 
 namespace faultline {
@@ -38,7 +38,7 @@ struct RowSums {
 
 /// Stores the torque delays: whole samples in the robot, and, with the timing between samples, relative to a
 /// straight line between them, in the result.
-void tell_delays(const ModelChoice& choice, const Gathered& gathered, Identification& id) {
+void store_delays(const ModelChoice& choice, const Gathered& gathered, Identification& id) {
   double period = 0.0;
   for (const LogSurvey& survey : gathered.surveys) period = std::max(period, survey.summary.period_s);
   std::vector<double> whole = id.robot.torque_delay_s;
@@ -159,9 +159,9 @@ void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathere
     for (const RowSums& sums : by_log[i]) id.logs[i].fit_r2.push_back(sums.r2());
   id.held_out_r2 = choice.held_out_r2;
   id.terms = choice.terms;
-  tell_delays(choice, gathered, id);
+  store_delays(choice, gathered, id);
   keep_curves(torque, choice, gathered, residual, id);
-  id.excitation = tell_excitation(torque, still, id);
+  id.excitation = motion_excitation(torque, still, id);
   id.trends = parameter_trends(torque, id);
   find_unexplained(still, id);
   find_implausible(id);

@@ -42,7 +42,7 @@ std::vector<int> bins_by_rank(const std::vector<Sample>& samples) {
 }
 
 /// Returns the share of the values' variance that the means of the other half's bins explain.
-double share_told(const std::vector<Sample>& samples) {
+double share_explained(const std::vector<Sample>& samples) {
   const std::vector<int> bin = bins_by_rank(samples);
   std::array<std::array<double, kBins>, 2> sum{}, count{};
   double total = 0.0;
@@ -62,16 +62,17 @@ double share_told(const std::vector<Sample>& samples) {
   return square > 0.0 ? std::max(1.0 - left / square, 0.0) : std::numeric_limits<double>::quiet_NaN();
 }
 
-double told_by(const JointFit& fit, const std::vector<double>& key) {
+double explained_by(const JointFit& fit, const std::vector<double>& key) {
   std::vector<Sample> samples;
   for (std::size_t k = 0; k < fit.size(); ++k)
     if (fit.moving[k])
       samples.push_back({key[k], fit.residual(k), static_cast<int>(std::floor(fit.time_s[k] / kHalf_s)) & 1});
-  return samples.size() < kPatternFewest ? std::numeric_limits<double>::quiet_NaN() : share_told(samples);
+  return samples.size() < kPatternFewest ? std::numeric_limits<double>::quiet_NaN()
+                                         : share_explained(samples);
 }
 
 /// Returns the squared correlation with the value one window earlier in the same log.
-double told_by_previous(const JointFit& fit) {
+double explained_by_previous(const JointFit& fit) {
   double xx = 0.0, xy = 0.0, yy = 0.0;
   std::size_t pairs = 0, before = 0;
   for (std::size_t k = 0; k < fit.size(); ++k) {
@@ -159,8 +160,12 @@ void add_spectrum(const JointFit& fit, ResidualPattern& pattern) {
 }  // namespace
 
 ResidualPattern residual_pattern(const JointFit& fit) {
-  ResidualPattern out{
-      told_by(fit, fit.q), told_by(fit, fit.dq), told_by(fit, fit.modelled), told_by_previous(fit), {}, {}};
+  ResidualPattern out{explained_by(fit, fit.q),
+                      explained_by(fit, fit.dq),
+                      explained_by(fit, fit.modelled),
+                      explained_by_previous(fit),
+                      {},
+                      {}};
   add_spectrum(fit, out);
   return out;
 }

@@ -69,8 +69,8 @@ bool Chooser::suits_each(const WeakChoice& without, const WeakChoice& with, cons
   if (!moments_.folds_are_logs()) return true;
   int better = 0;
   for (int fold = 0; fold < moments_.folds(); ++fold)
-    better += moments_.left_alone(with, wanted, start_, scale, fold, j) <
-              moments_.left_alone(without, wanted, start_, scale, fold, j);
+    better += moments_.own_fit_residual(with, wanted, start_, scale, fold, j) <
+              moments_.own_fit_residual(without, wanted, start_, scale, fold, j);
   return 2 * better > moments_.folds();
 }
 
@@ -99,7 +99,8 @@ Gain gain_of(const HeldOutError& without, const HeldOutError& with, int j) {
   return out;
 }
 
-bool pays(const HeldOutError& without, const HeldOutError& with, int j, double torque, const Worth& worth) {
+bool pays(const HeldOutError& without, const HeldOutError& with, int j, double torque,
+          const LeastGain& worth) {
   const Gain gain = gain_of(without, with, j);
   const double before = without.rms()[j], less = before - with.rms()[j];
   return less > worth.residual * before && less > worth.torque * torque &&

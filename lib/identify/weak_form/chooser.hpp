@@ -62,7 +62,7 @@ struct Gain {
 Gain gain_of(const HeldOutError& without, const HeldOutError& with, int joint);
 
 /// Least gain by a term that is kept.
-struct Worth {
+struct LeastGain {
   double residual = 0.01;  ///< of its joint's held-out residual,
   double torque = 5e-4;    ///< of the joint's torque: less is of no practical use,
   double sure = 1.0;       ///< and standard errors over the folds
@@ -70,6 +70,6 @@ struct Worth {
 
 /// Whether `with` explains joint `joint`, of torque `torque` rms, better by at least that much.
 bool pays(const HeldOutError& without, const HeldOutError& with, int joint, double torque,
-          const Worth& worth);
+          const LeastGain& worth);
 
 }  // namespace faultline

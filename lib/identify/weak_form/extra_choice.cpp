@@ -12,14 +12,14 @@
 namespace faultline {
 namespace {
 
-constexpr Worth kLoad{.residual = 0.1, .torque = 1e-3};    // load friction: one column
-constexpr Worth kShared{.residual = 0.2, .torque = 1e-3};  // drives that joints share: three columns
+constexpr LeastGain kLoad{.residual = 0.1, .torque = 1e-3};    // load friction: one column
+constexpr LeastGain kShared{.residual = 0.2, .torque = 1e-3};  // drives that joints share: three columns
 // Play, or a spring in a neighbour, looks similar.
-constexpr Worth kCompliance{.residual = 0.3, .torque = 1e-3, .sure = 2.0};
+constexpr LeastGain kCompliance{.residual = 0.3, .torque = 1e-3, .sure = 2.0};
 // Fast terms are judged by the shortest windows, where noise of the velocity dominates the residual.
-constexpr Worth kQuick{.residual = 0.1, .torque = 1e-3, .sure = 2.0};
+constexpr LeastGain kQuick{.residual = 0.1, .torque = 1e-3, .sure = 2.0};
 // A wrong gain makes the masses wrong.
-constexpr Worth kChoiceGain{.residual = 0.12, .torque = 2e-3, .sure = 3.0};
+constexpr LeastGain kChoiceGain{.residual = 0.12, .torque = 2e-3, .sure = 3.0};
 constexpr double kMostGain = 2.0;     // largest gain; the smallest is its inverse
 constexpr int kGainSteps = 14;        // steps between the two, at first
 constexpr int kGainRefinements = 12;  // steps of the golden section: they determine the gain to 0.06 %
@@ -28,7 +28,7 @@ constexpr int kGainRefinements = 12;  // steps of the golden section: they deter
 struct TermGroup {
   std::vector<int> parameters;
   std::vector<int> joints;  ///< joints that they act on
-  Worth worth{};
+  LeastGain worth{};
   bool quick = false;
   double promise = 0.0;  ///< gain by the group alone
   int joint = 0;         ///< joint that gains most
@@ -54,10 +54,10 @@ std::vector<TermGroup> groups_of(const ParameterSpace& space, const std::vector<
       groups.back().parameters.push_back(p);
       continue;
     }
-    const Worth& worth = term.kind == ExtraKind::gear_compliance ? kCompliance
-                         : is_quick(term.kind)                   ? kQuick
-                         : is_of_shared_drive(term.kind)         ? kShared
-                                                                 : kLoad;
+    const LeastGain& worth = term.kind == ExtraKind::gear_compliance ? kCompliance
+                             : is_quick(term.kind)                   ? kQuick
+                             : is_of_shared_drive(term.kind)         ? kShared
+                                                                     : kLoad;
     groups.push_back(
         {.parameters = {p}, .joints = joints_of(space, term), .worth = worth, .quick = is_quick(term.kind)});
   }
@@ -94,8 +94,8 @@ bool can_be(const Chooser& chooser, const ParameterSpace& space, const ModelChoi
 }
 
 /// Returns the squared residual of all joints, each in its scale, if joint `j` has that gain.
-double left_with(const Chooser& chooser, const ModelChoice& c, const Eigen::VectorXd& scale, int j,
-                 double log_gain) {
+double residual_with(const Chooser& chooser, const ModelChoice& c, const Eigen::VectorXd& scale, int j,
+                     double log_gain) {
   WeakChoice tried = c.weak;
   tried.gain[j] = elementary::exp(log_gain);
   return chooser.left(tried, c.wanted, scale);
@@ -105,13 +105,13 @@ double left_with(const Chooser& chooser, const ModelChoice& c, const Eigen::Vect
 double best_gain(const Chooser& chooser, const ModelChoice& c, int j) {
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   const double most = elementary::log(kMostGain), step = 2.0 * most / kGainSteps;
-  double best = 0.0, least = left_with(chooser, c, scale, j, 0.0);
+  double best = 0.0, least = residual_with(chooser, c, scale, j, 0.0);
   for (int i = 0; i <= kGainSteps; ++i) {
-    const double left = left_with(chooser, c, scale, j, -most + i * step);
+    const double left = residual_with(chooser, c, scale, j, -most + i * step);
     if (left < least) least = left, best = -most + i * step;
   }
   return golden_section(best - step, best + step, kGainRefinements,
-                        [&](double log_gain) { return left_with(chooser, c, scale, j, log_gain); });
+                        [&](double log_gain) { return residual_with(chooser, c, scale, j, log_gain); });
 }
 
 }  // namespace

@@ -13,12 +13,12 @@
 namespace faultline {
 namespace {
 
-constexpr Worth kTerm;                                     // rotors and friction offsets
-constexpr Worth kShift{.residual = 0.005};                 // of all joints
-constexpr Worth kOwnShift{.residual = 0.02, .sure = 2.0};  // most logs have one delay for all joints
-constexpr Worth kWidth{.residual = 0.02};                  // for a wider friction than the sharpest
+constexpr LeastGain kTerm;                                     // rotors and friction offsets
+constexpr LeastGain kShift{.residual = 0.005};                 // of all joints
+constexpr LeastGain kOwnShift{.residual = 0.02, .sure = 2.0};  // most logs have one delay for all joints
+constexpr LeastGain kWidth{.residual = 0.02};                  // for a wider friction than the sharpest
 // Friction that bends or differs by direction resembles other errors, such as an untried friction width.
-constexpr Worth kRare{.residual = 0.1, .torque = 1e-3};
+constexpr LeastGain kRare{.residual = 0.1, .torque = 1e-3};
 constexpr double kWindowWorthIt = 0.01;  // of the residual: a smaller gain does not justify a longer window
 constexpr double kWidthsApart = 1.0;     // standard errors between two widths that held-out data distinguish
 constexpr double kFarWidth = 4.0;        // times wider or sharper than the best: not plausible any more
@@ -126,8 +126,8 @@ void choose_widths(const Chooser& chooser, int joints, ModelChoice& c) {
 
 /// Returns the covariance of the parameters from friction widths that held-out data do not distinguish from
 /// the chosen one: mean square of the change of the fit over those widths.
-Eigen::MatrixXd width_doubt(const Chooser& chooser, const ParameterSpace& space, const ModelChoice& c,
-                            const Eigen::VectorXd& scale) {
+Eigen::MatrixXd width_covariance(const Chooser& chooser, const ParameterSpace& space, const ModelChoice& c,
+                                 const Eigen::VectorXd& scale) {
   Eigen::MatrixXd doubt = Eigen::MatrixXd::Zero(space.count(), space.count());
   const Eigen::VectorXd chosen = chooser.fit(c.weak, c.wanted, scale);
   for (int j = 0; j < space.joints(); ++j) {
@@ -172,7 +172,7 @@ bool loses(const HeldOutError& with, const HeldOutError& against, int j) {
 
 /// Joints share parameters: windows too short for the velocity noise of one joint spoil the fit of the
 /// others. Lengthens the shortest ones until no joint is worse than with equal windows.
-void spare_the_others(const Chooser& chooser, int joints, int alike, const HeldOutError& with_alike,
+void lengthen_windows(const Chooser& chooser, int joints, int alike, const HeldOutError& with_alike,
                       ModelChoice& c) {
   for (;;) {
     const HeldOutError mixed = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
@@ -187,7 +187,7 @@ void spare_the_others(const Chooser& chooser, int joints, int alike, const HeldO
 }
 
 /// Returns the sum of the logarithms of the residuals, so that joints count alike; a still joint has none.
-double left_in_all(const HeldOutError& error) {
+double sum_of_log_residuals(const HeldOutError& error) {
   constexpr double kNothing = 1e-12;  // N m or N: far below any residual; the logarithm stays finite
   return error.rms().array().max(kNothing).unaryExpr(&elementary::log).sum();
 }
@@ -199,7 +199,7 @@ void choose_windows(const Chooser& chooser, int sets, int joints, ModelChoice& c
     WeakChoice tried = c.weak;
     tried.set.assign(joints, set);
     errors.push_back(chooser.error(tried, c.wanted, chooser.scale(tried, c.wanted)));
-    if (left_in_all(errors[set]) < left_in_all(errors[alike])) alike = set;
+    if (sum_of_log_residuals(errors[set]) < sum_of_log_residuals(errors[alike])) alike = set;
   }
   for (int j = 0; j < joints; ++j) {
     int best = 0;
@@ -209,7 +209,7 @@ void choose_windows(const Chooser& chooser, int sets, int joints, ModelChoice& c
     for (int set = best - 1; set >= 0; --set)
       if (!loses(errors[set], errors[best], j)) c.weak.set[j] = set;
   }
-  spare_the_others(chooser, joints, alike, errors[alike], c);
+  lengthen_windows(chooser, joints, alike, errors[alike], c);
 }
 
 }  // namespace
@@ -234,7 +234,7 @@ ModelChoice choose_model(const WeakMoments& moments, const ParameterSpace& space
   choose_windows(chooser, sets, n, c);
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   c.held_out = chooser.error(c.weak, c.wanted, scale);
-  c.width_doubt = width_doubt(chooser, space, c, scale);
+  c.width_covariance = width_covariance(chooser, space, c, scale);
   WeakChoice judged = c.weak;
   judged.set.assign(n, moments.yardstick());
   const Eigen::VectorXd rms = c.held_out.rms(), torque = moments.torque_std(judged);

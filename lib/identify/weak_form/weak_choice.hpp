@@ -11,11 +11,11 @@ namespace faultline {
 /// The model with the least error on held-out windows, and the simplest of those that are equally good.
 struct ModelChoice {
   WeakChoice weak;
-  std::vector<bool> wanted;         ///< parameters of the space
-  std::vector<ModelTerm> terms;     ///< terms that were tried, in this order
-  HeldOutError held_out;            ///< residual of every fold with the fit to the other folds
-  std::vector<double> held_out_r2;  ///< by joint
-  Eigen::MatrixXd width_doubt;      ///< covariance of the parameters due to unknown friction widths
+  std::vector<bool> wanted;          ///< parameters of the space
+  std::vector<ModelTerm> terms;      ///< terms that were tried, in this order
+  HeldOutError held_out;             ///< residual of every fold with the fit to the other folds
+  std::vector<double> held_out_r2;   ///< by joint
+  Eigen::MatrixXd width_covariance;  ///< covariance of the parameters due to unknown friction widths
   Eigen::MatrixXd spread;  ///< parameters x folds: each fold fitted alone; empty if folds are not logs
 };
 

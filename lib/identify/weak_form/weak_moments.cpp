@@ -203,8 +203,8 @@ Eigen::VectorXd WeakMoments::fit_folds(const WeakChoice& choice, const std::vect
   return x;
 }
 
-double WeakMoments::square_left(const Moments& m, const WeakChoice& choice, const Eigen::VectorXd& parameters,
-                                int j) const {
+double WeakMoments::squared_residual(const Moments& m, const WeakChoice& choice,
+                                     const Eigen::VectorXd& parameters, int j) const {
   const std::vector<int> column = columns(choice, j), parameter = parameters_of(j);
   Eigen::VectorXd v(column.size());
   for (std::size_t a = 0; a < parameter.size(); ++a) v[a] = -parameters[parameter[a]];
@@ -213,11 +213,11 @@ double WeakMoments::square_left(const Moments& m, const WeakChoice& choice, cons
   return std::max(v.dot(m.sum(column, column) * v), 0.0) / (gain * gain);
 }
 
-double WeakMoments::left_alone(const WeakChoice& choice, const std::vector<bool>& wanted,
-                               const Eigen::VectorXd& start, const Eigen::VectorXd& scale, int fold,
-                               int joint) const {
-  return square_left(at(choice.set[joint], fold, joint), choice, fit_one(choice, wanted, start, scale, fold),
-                     joint);
+double WeakMoments::own_fit_residual(const WeakChoice& choice, const std::vector<bool>& wanted,
+                                     const Eigen::VectorXd& start, const Eigen::VectorXd& scale, int fold,
+                                     int joint) const {
+  return squared_residual(at(choice.set[joint], fold, joint), choice,
+                          fit_one(choice, wanted, start, scale, fold), joint);
 }
 
 Eigen::VectorXd WeakMoments::residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const {
@@ -225,7 +225,7 @@ Eigen::VectorXd WeakMoments::residual_rms(const WeakChoice& choice, const Eigen:
   for (int j = 0; j < joints_; ++j) {
     double square = 0.0, rows = 0.0;
     for (int fold = 0; fold < folds_; ++fold) {
-      square += square_left(at(choice.set[j], fold, j), choice, parameters, j);
+      square += squared_residual(at(choice.set[j], fold, j), choice, parameters, j);
       rows += at(choice.set[j], fold, j).rows;
     }
     out[j] = std::sqrt(square / std::max(rows, 1.0));
@@ -271,8 +271,8 @@ HeldOutError WeakMoments::held_out(const WeakChoice& choice, const std::vector<b
     for (int j = 0; j < joints_; ++j) {
       const Moments& m = at(judge, fold, j);
       out.rows(fold, j) = m.rows;
-      out.square(fold, j) = square_left(m, judged, parameters, j) / std::max(m.rows, 1.0);
-      out.torque(fold, j) = square_left(m, judged, none, j) / std::max(m.rows, 1.0);
+      out.square(fold, j) = squared_residual(m, judged, parameters, j) / std::max(m.rows, 1.0);
+      out.torque(fold, j) = squared_residual(m, judged, none, j) / std::max(m.rows, 1.0);
     }
   }
   return out;

@@ -36,8 +36,9 @@ class WeakMoments {
   Eigen::VectorXd fit_one(const WeakChoice& choice, const std::vector<bool>& wanted,
                           const Eigen::VectorXd& start, const Eigen::VectorXd& scale, int fold) const;
   /// Returns the summed squared torque residual of a joint in one fold, with a fit to that fold alone.
-  double left_alone(const WeakChoice& choice, const std::vector<bool>& wanted, const Eigen::VectorXd& start,
-                    const Eigen::VectorXd& scale, int fold, int joint) const;
+  double own_fit_residual(const WeakChoice& choice, const std::vector<bool>& wanted,
+                          const Eigen::VectorXd& start, const Eigen::VectorXd& scale, int fold,
+                          int joint) const;
   /// Returns the rms torque residual of every joint with `parameters` in the chosen windows, all folds.
   Eigen::VectorXd residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const;
   /// Returns the rms torque of every joint.
@@ -65,8 +66,8 @@ class WeakMoments {
   Eigen::VectorXd fit_folds(const WeakChoice& choice, const std::vector<bool>& wanted,
                             const Eigen::VectorXd& start, const Eigen::VectorXd& scale,
                             const std::vector<bool>& used) const;
-  double square_left(const Moments& m, const WeakChoice& choice, const Eigen::VectorXd& parameters,
-                     int joint) const;
+  double squared_residual(const Moments& m, const WeakChoice& choice, const Eigen::VectorXd& parameters,
+                          int joint) const;
 
   const ParameterSpace& space_;
   ShiftRange shifts_;

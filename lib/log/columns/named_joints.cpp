@@ -12,7 +12,7 @@ namespace {
 /// A column whose name contains a quantity, and the words that may be its joint's name.
 struct NamedColumn {
   int column = -1;
-  NameReading reading;
+  ParsedName reading;
 };
 
 std::vector<NamedColumn> read_columns(const std::vector<std::string>& names,
@@ -20,7 +20,7 @@ std::vector<NamedColumn> read_columns(const std::vector<std::string>& names,
   std::vector<NamedColumn> columns;
   for (int i = 0; i < std::ssize(names); ++i)
     if (is_free(i))
-      if (const NameReading reading = read_name(names[i]); reading.quantity) columns.push_back({i, reading});
+      if (const ParsedName reading = parse_name(names[i]); reading.quantity) columns.push_back({i, reading});
   return columns;
 }
 

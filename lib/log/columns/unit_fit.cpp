@@ -94,8 +94,8 @@ void refuse_misfit(const RawColumn& column, const ColumnSpec& spec, Channel chan
                   meaning_of(channel.quantity), units_of(channel.quantity), one_of(known->dimension)));
 }
 
-std::vector<ColumnFamily> take_misfits(std::vector<ColumnFamily>& families,
-                                       const std::vector<RawColumn>& columns, const ColumnMap& map) {
+std::vector<ColumnFamily> take_mismatched(std::vector<ColumnFamily>& families,
+                                          const std::vector<RawColumn>& columns, const ColumnMap& map) {
   const auto explained = [&](Quantity quantity) {
     return std::any_of(map.begin(), map.end(), [&](const auto& entry) {
       const auto channel = canonical_channel(entry.first);

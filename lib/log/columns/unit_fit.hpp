@@ -24,8 +24,8 @@ double checked_factor(const ColumnSpec& spec, const std::string& channel);
 void refuse_misfit(const RawColumn& column, const ColumnSpec& spec, Channel channel, const std::string& path);
 
 /// Removes and returns the families in another dimension for which `map` has neither unit nor scale.
-std::vector<ColumnFamily> take_misfits(std::vector<ColumnFamily>& families,
-                                       const std::vector<RawColumn>& columns, const ColumnMap& map);
+std::vector<ColumnFamily> take_mismatched(std::vector<ColumnFamily>& families,
+                                          const std::vector<RawColumn>& columns, const ColumnMap& map);
 
 /// Returns a sentence on why such a column was not used, for an issue.
 std::string not_taken_sentence(const RawColumn& column, Quantity quantity);

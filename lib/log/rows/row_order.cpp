@@ -55,7 +55,7 @@ void RowOrder::take(const Log& rows, std::int64_t first_row, Issues& issues) {
 void RowOrder::finish(Issues& issues) {
   for (; judged_ < store_.rows(); ++judged_) judge(judged_, std::nan(""), issues);
   end_run(issues);
-  tell_lost(issues);
+  report_lost(issues);
   finished_ = true;
 }
 
@@ -278,7 +278,7 @@ double RowOrder::usual_step() const {
   return upper_median_of(latest);
 }
 
-void RowOrder::tell_lost(Issues& issues) const {
+void RowOrder::report_lost(Issues& issues) const {
   const double lost_s = static_cast<double>(most_lost_.rows) * most_lost_.step_s;
   if (lost_s <= judged_moment_s(most_lost_.step_s)) return;
   issues.add({"rows_not_judged", "t", Severity::severe,

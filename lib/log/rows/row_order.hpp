@@ -89,7 +89,7 @@ class RowOrder {
   void forget_given();
   void drop_first(std::size_t rows);
   void gather(Log& segment, std::size_t rows) const;
-  void tell_lost(Issues& issues) const;
+  void report_lost(Issues& issues) const;
 
   int wanted_run_;
   Log store_;                          ///< rows in the order of the file

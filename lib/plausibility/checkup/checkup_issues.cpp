@@ -128,7 +128,7 @@ void judge_joints(const CheckupResult& checkup, Issues& issues) {
       issues.add({"velocity_late", to_string({Quantity::dq, joint}), Severity::note,
                   fmt::format("lags the change of the position by {:.1f} rows, as a filtered velocity does",
                               velocity.delay_rows)});
-    if (std::abs(torque.delay_rows) > kLateRows + torque.delay_doubt_rows)
+    if (std::abs(torque.delay_rows) > kLateRows + torque.delay_uncertainty_rows)
       issues.add({"torque_delayed", to_string({Quantity::tau, joint}), Severity::note,
                   fmt::format("is logged {:.1f} rows {} the acceleration that it causes (correlation {:.2f})",
                               std::abs(torque.delay_rows), torque.delay_rows > 0.0 ? "after" : "before",

@@ -137,7 +137,7 @@ TorqueRelated TorqueRelation::related(int joint, const Eigen::MatrixXd& inverse)
   found.correlation = std::copysign(std::sqrt(t / (1.0 + t)), factors[joint]);
   if (std::abs(found.correlation) > kTells && found.explained > kExplained) {
     found.delay_rows = static_cast<double>(stride_) * (valley_of(left) - kMostStrides);
-    found.delay_doubt_rows = 0.5 + kDoubt_s / period_s_;
+    found.delay_uncertainty_rows = 0.5 + kDoubt_s / period_s_;
   }
   return found;
 }

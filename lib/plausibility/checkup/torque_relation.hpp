@@ -16,8 +16,8 @@ struct TorqueRelated {
   double explained = std::numeric_limits<double>::quiet_NaN();  ///< share of the torque that motion explains
   /// Rows by which the torque is logged late. A torque held until the next row is half a row early.
   double delay_rows = std::numeric_limits<double>::quiet_NaN();
-  double delay_doubt_rows = std::numeric_limits<double>::quiet_NaN();  ///< uncertainty
-  double inertia = std::numeric_limits<double>::quiet_NaN();           ///< about: torque per acceleration
+  double delay_uncertainty_rows = std::numeric_limits<double>::quiet_NaN();  ///< uncertainty
+  double inertia = std::numeric_limits<double>::quiet_NaN();  ///< about: torque per acceleration
 };
 
 /// Regresses the torques on accelerations, velocities, their products and directions of all joints; positions

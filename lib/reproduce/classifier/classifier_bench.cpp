@@ -56,7 +56,7 @@ std::array<double, 2> errors(const SampleClassifier& classifier, const std::vect
 
 }  // namespace
 
-ClassifierBench::ClassifierBench(ControllerReading controller, std::uint64_t seed, int generator_iterations,
+ClassifierBench::ClassifierBench(ControllerVariant controller, std::uint64_t seed, int generator_iterations,
                                  int test_trajectories)
     : experiment_(experiment_on(bench_robot(), controller, seed)) {
   GeneratorRecipe recipe;
@@ -65,13 +65,13 @@ ClassifierBench::ClassifierBench(ControllerReading controller, std::uint64_t see
   for (int noise = 0; noise < 3; ++noise)
     tests_[noise] = fault_patterns(experiment_,
                                    {.count = test_trajectories,
-                                    .sigma = kNoiseReadings[noise],
+                                    .sigma = kNoiseVariants[noise],
                                     .torque_phi = torque_phi(RecipeGenerator::physics)},
                                    SeedUse::classifier_test);
 }
 
 double ClassifierBench::torque_phi(RecipeGenerator kind) const {
-  const bool moves = kind == RecipeGenerator::physics && experiment_.controller != ControllerReading::held;
+  const bool moves = kind == RecipeGenerator::physics && experiment_.controller != ControllerVariant::held;
   return moves ? kLinearTorque : 0.0;
 }
 

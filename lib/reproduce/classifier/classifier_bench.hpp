@@ -13,7 +13,7 @@
 namespace faultline {
 
 /// Mean squared error over the four outputs against 0 and 1: training patterns, then test patterns without
-/// noise, with sigma 0.01 and with 0.1 (kNoiseReadings).
+/// noise, with sigma 0.01 and with 0.1 (kNoiseVariants).
 struct NetworkErrors {
   double training = 0.0;
   std::array<double, 3> test{};
@@ -25,7 +25,7 @@ struct ClassifierErrors {
 /// What all recipes under one controller share: robot, scale, the paper's generator, and test patterns.
 class ClassifierBench {
  public:
-  ClassifierBench(ControllerReading controller, std::uint64_t seed, int generator_iterations,
+  ClassifierBench(ControllerVariant controller, std::uint64_t seed, int generator_iterations,
                   int test_trajectories);
 
   ClassifierErrors measure(const ClassifierRecipe& recipe) const;
@@ -34,7 +34,7 @@ class ClassifierBench {
   FaultPatterns training_patterns(const ClassifierRecipe& recipe) const;
 
   const Experiment& experiment() const { return experiment_; }
-  /// Test patterns at one of kNoiseReadings, with the mean torque over each sample as for `physics`.
+  /// Test patterns at one of kNoiseVariants, with the mean torque over each sample as for `physics`.
   const FaultPatterns& test(int noise) const { return tests_[noise]; }
 
  private:

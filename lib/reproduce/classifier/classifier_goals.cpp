@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-constexpr int kHeld = 0, kFast = 1, kPd = 2;  // places in kControllerReadings
+constexpr int kHeld = 0, kFast = 1, kPd = 2;  // places in kControllerVariants
 
 }  // namespace
 

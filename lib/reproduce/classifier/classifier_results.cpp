@@ -11,7 +11,7 @@
 namespace faultline {
 namespace {
 
-const char* name_of(int controller) { return to_string(kControllerReadings[controller]); }
+const char* name_of(int controller) { return to_string(kControllerVariants[controller]); }
 
 std::string full_name(const ClassifierRecipe& recipe) {
   if (recipe.sigma == 0.0) return recipe.name;
@@ -150,7 +150,7 @@ ResultTable ClassifierResults::table_2() const {
                              kBestCoarseRecipe, kBestManyCoarseRecipe})
       table.rows.push_back(recipe_row(controller, recipe));
     table.rows.push_back(posterior_row(controller, false));
-    if (kControllerReadings[controller] != ControllerReading::held)
+    if (kControllerVariants[controller] != ControllerVariant::held)
       table.rows.push_back(posterior_row(controller, true));
   }
   for (ResultRow& row : table.rows)

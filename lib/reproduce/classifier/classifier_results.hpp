@@ -20,11 +20,11 @@ struct ClassifierFindings {
   std::array<int, kFaultClasses> patterns{};                     ///< of the training set, by class
   std::array<Eigen::VectorXd, kFaultClasses> velocity_residual;  ///< rms by joint, rad/s or m/s
   std::vector<ClassifierErrors> by_recipe;
-  std::array<double, 3> posterior{};       ///< mean squared error at each of kNoiseReadings
+  std::array<double, 3> posterior{};       ///< mean squared error at each of kNoiseVariants
   std::array<double, 3> posterior_next{};  ///< the torque of the next sample known too; NaN for held
 };
 
-/// The findings of all controllers (kControllerReadings) and seeds, as tables and goals.
+/// The findings of all controllers (kControllerVariants) and seeds, as tables and goals.
 class ClassifierResults {
  public:
   ClassifierResults(std::vector<ClassifierRecipe> recipes, int seeds);

@@ -38,13 +38,13 @@ std::array<double, 3> posterior_errors(const Experiment& experiment, TorqueBetwe
   set.count = effort.posterior_test;
   std::array<double, 3> errors{};
   for (int noise = 0; noise < 3; ++noise) {
-    set.sigma = kNoiseReadings[noise];
+    set.sigma = kNoiseVariants[noise];
     errors[noise] = posterior_error(model, draw(SeedUse::classifier_test), experiment.ranges, set.sigma);
   }
   return errors;
 }
 
-ClassifierFindings find(ControllerReading controller, const std::vector<ClassifierRecipe>& recipes,
+ClassifierFindings find(ControllerVariant controller, const std::vector<ClassifierRecipe>& recipes,
                         const Effort& effort, std::uint64_t seed) {
   const ClassifierBench bench(controller, seed, effort.generator_iterations, effort.test_trajectories);
   ClassifierFindings found;
@@ -56,7 +56,7 @@ ClassifierFindings find(ControllerReading controller, const std::vector<Classifi
   for (const ClassifierRecipe& recipe : recipes) found.by_recipe.push_back(bench.measure(recipe));
   found.posterior = posterior_errors(bench.experiment(), TorqueBetween::controlled, effort);
   found.posterior_next.fill(std::numeric_limits<double>::quiet_NaN());
-  if (controller != ControllerReading::held)
+  if (controller != ControllerVariant::held)
     found.posterior_next = posterior_errors(bench.experiment(), TorqueBetween::linear, effort);
   return found;
 }
@@ -73,7 +73,7 @@ StudyResult classifier_study(const ReproduceOptions& options, const Progress& pr
   int done = 0;
   parallel_for(items, options.threads, [&](int item) {
     const int controller = item % kControllers, seed = item / kControllers;
-    results.at(controller, seed) = find(kControllerReadings[controller], recipes, effort,
+    results.at(controller, seed) = find(kControllerVariants[controller], recipes, effort,
                                         options.seed + static_cast<std::uint64_t>(seed));
     const std::lock_guard lock(telling);
     if (progress) progress("classifiers of single samples", static_cast<double>(++done) / items);

@@ -13,7 +13,7 @@ constexpr int kSteps = 10;  // of Runge-Kutta, over a sample
 
 }  // namespace
 
-SampleModel::SampleModel(const Robot& robot, ControllerReading controller, TorqueBetween between)
+SampleModel::SampleModel(const Robot& robot, ControllerVariant controller, TorqueBetween between)
     : dynamics_(robot.chain),
       reading_(controller),
       between_(between),
@@ -31,8 +31,8 @@ Vector SampleModel::set_point(const JointState& now, const Vector& tau) const {
 
 JointState SampleModel::next(const JointState& now, const Vector& tau, const Vector& next_tau,
                              int output) const {
-  const bool follows = between_ == TorqueBetween::controlled && reading_ != ControllerReading::held;
-  const bool pd = reading_ == ControllerReading::pd;
+  const bool follows = between_ == TorqueBetween::controlled && reading_ != ControllerVariant::held;
+  const bool pd = reading_ == ControllerVariant::pd;
   Reference reference{now.q, Vector::Zero(now.q.size()), Vector::Zero(now.q.size())};
   if (follows && pd) reference.q = set_point(now, tau);
   if (follows && !pd) dynamics_.acceleration(now.q, now.dq, tau, reference.ddq);

@@ -18,7 +18,7 @@ enum class TorqueBetween {
 /// its controller's, with nothing learned.
 class SampleModel {
  public:
-  SampleModel(const Robot& robot, ControllerReading controller, TorqueBetween between);
+  SampleModel(const Robot& robot, ControllerVariant controller, TorqueBetween between);
 
   /// The state a sample later. `output` is the class (table_1_class); `next_tau` matters for linear only.
   JointState next(const JointState& now, const JointVector& tau, const JointVector& next_tau,
@@ -30,7 +30,7 @@ class SampleModel {
   JointVector set_point(const JointState& now, const JointVector& tau) const;
 
   FastDynamics dynamics_;
-  ControllerReading reading_;
+  ControllerVariant reading_;
   TorqueBetween between_;
   Controller controller_;
 };

@@ -10,7 +10,7 @@ GeneratorBench generator_bench(const Experiment& experiment, int trajectories) {
   GeneratorBench bench{experiment, {}};
   for (int reading = 0; reading < 3; ++reading)
     bench.tests[reading] =
-        healthy_trajectories(experiment, trajectories, kNoiseReadings[reading], SeedUse::generator_test);
+        healthy_trajectories(experiment, trajectories, kNoiseVariants[reading], SeedUse::generator_test);
   bench.tests[static_cast<int>(GeneratorTest::clean_runs)] =
       healthy_runs(experiment, trajectories, 0.0, SeedUse::generator_test);
   return bench;

@@ -12,7 +12,7 @@ constexpr int kPatternsInATrajectory = 25;
 
 std::string patterns_of(int trajectories) { return fmt::format("{}", trajectories * kPatternsInATrajectory); }
 
-bool is_held(const IdentifiedBench& on) { return on.bench.experiment.controller == ControllerReading::held; }
+bool is_held(const IdentifiedBench& on) { return on.bench.experiment.controller == ControllerVariant::held; }
 
 /// The least that is known of the torque between samples: half way, unless it is held.
 double middle(const IdentifiedBench& on) { return is_held(on) ? 0.0 : 0.5; }

@@ -29,7 +29,7 @@ IdentifiedBench identified_bench(const Experiment& experiment, const GeneratorCo
   IdentifiedBench out{generator_bench(experiment, scale.test_trajectories),
                       identified_robot(experiment, scale.slow_logs),
                       {}};
-  if (comparison.with_fast_logs && experiment.controller != ControllerReading::held)
+  if (comparison.with_fast_logs && experiment.controller != ControllerVariant::held)
     out.identified_at_1khz = identified_robot(experiment, scale.fast_logs);
   return out;
 }
@@ -72,7 +72,7 @@ GeneratorMeasurements measure_generators(const GeneratorComparison& comparison,
   const int benches = kControllers * options.seeds, count = static_cast<int>(out.candidates.size());
   out.errors.resize(static_cast<std::size_t>(benches) * out.candidates.size());
   std::vector<HalfRanges> ranges;
-  for (const ControllerReading controller : kControllerReadings)
+  for (const ControllerVariant controller : kControllerVariants)
     ranges.push_back(half_ranges(comparison.robot, controller));
 
   std::mutex reporting;
@@ -84,7 +84,7 @@ GeneratorMeasurements measure_generators(const GeneratorComparison& comparison,
   std::vector<IdentifiedBench> identified(benches);
   parallel_for(benches, options.threads, [&](int i) {
     const int controller = i / options.seeds;
-    identified[i] = identified_bench({comparison.robot, kControllerReadings[controller], ranges[controller],
+    identified[i] = identified_bench({comparison.robot, kControllerVariants[controller], ranges[controller],
                                       options.seed + i % options.seeds},
                                      comparison);
     report();

@@ -72,21 +72,21 @@ std::string scientific(double value) {
   return text;
 }
 
-double mean_mse(const GeneratorMeasurements& measured, const char* name, ControllerReading controller,
+double mean_mse(const GeneratorMeasurements& measured, const char* name, ControllerVariant controller,
                 GeneratorTest test) {
   const auto mse = measured.mse(measured.find(name), static_cast<int>(controller), test);
   return mse.value_or(Measured{}).mean();
 }
 
 std::string generator_mse_text(const GeneratorMeasurements& measured, const GeneratorScale& scale) {
-  constexpr ControllerReading held = ControllerReading::held;
+  constexpr ControllerVariant held = ControllerVariant::held;
   const double physics = mean_mse(measured, kPhysicsTrue, held, GeneratorTest::noise_01);
-  const double gain = physics / (kNoiseReadings[1] * kNoiseReadings[1]) - 1.0;
+  const double gain = physics / (kNoiseVariants[1] * kNoiseVariants[1]) - 1.0;
   const auto noisy = [&](const char* name) {
     return fmt::format("{:.2f}e-2", 100.0 * mean_mse(measured, name, held, GeneratorTest::noise_1));
   };
   const WorstSamples worst =
-      measured.worst(measured.find(kLevenbergMarquardt), static_cast<int>(ControllerReading::pd));
+      measured.worst(measured.find(kLevenbergMarquardt), static_cast<int>(ControllerVariant::pd));
   return fmt::format(kProtocol, scale.test_trajectories, scale.iterations, scale.noisy_iterations,
                      scale.epochs) +
          "\n\n" +
@@ -105,7 +105,7 @@ both ends; only an error of the network beyond that still shows.)";
 
 std::string generator_friction_text(const GeneratorMeasurements& measured, const GeneratorScale& scale) {
   const auto clean = [&](const char* name) {
-    return scientific(mean_mse(measured, name, ControllerReading::fast, GeneratorTest::clean));
+    return scientific(mean_mse(measured, name, ControllerVariant::fast, GeneratorTest::clean));
   };
   return fmt::format(kFriction, scale.slow_logs.count, scale.slow_logs.duration_s, scale.slow_logs.max_rows,
                      scale.fast_logs.duration_s, clean(kWrongAndMlp), clean(kLevenbergMarquardt),
@@ -121,13 +121,13 @@ std::optional<Measured> printed(double figure) {
   return Measured{{figure}};
 }
 
-double study_clean(const StudyFigures& study, ControllerReading controller) {
+double study_clean(const StudyFigures& study, ControllerVariant controller) {
   switch (controller) {
-    case ControllerReading::held:
+    case ControllerVariant::held:
       return study.held;
-    case ControllerReading::fast:
+    case ControllerVariant::fast:
       return study.fast;
-    case ControllerReading::pd:
+    case ControllerVariant::pd:
       return study.pd;
   }
   return std::nan("");
@@ -135,9 +135,9 @@ double study_clean(const StudyFigures& study, ControllerReading controller) {
 
 ResultRow row_of(const GeneratorMeasurements& measured, int candidate, int controller) {
   const GeneratorCandidate& who = measured.candidates[candidate];
-  ResultRow row{{who.name, to_string(kControllerReadings[controller]), who.patterns}, {}};
+  ResultRow row{{who.name, to_string(kControllerVariants[controller]), who.patterns}, {}};
   for (const GeneratorTest test : kTests) row.figures.push_back(measured.mse(candidate, controller, test));
-  row.figures.push_back(printed(study_clean(who.study, kControllerReadings[controller])));
+  row.figures.push_back(printed(study_clean(who.study, kControllerVariants[controller])));
   return row;
 }
 
@@ -189,7 +189,7 @@ ResultTable generator_by_output_table(const GeneratorMeasurements& measured) {
   for (const char* name : {kBackPropagation, kLevenbergMarquardt})
     for (int controller = 0; controller < kControllers; ++controller)
       for (const GeneratorTest test : {GeneratorTest::clean, GeneratorTest::noise_01}) {
-        ResultRow row{{name, to_string(kControllerReadings[controller]),
+        ResultRow row{{name, to_string(kControllerVariants[controller]),
                        test == GeneratorTest::clean ? "clean" : "sigma 0.01"},
                       {}};
         for (int output = 0; output < 6; ++output)
@@ -206,24 +206,24 @@ ResultTable generator_friction_table(const GeneratorMeasurements& measured, cons
   return table;
 }
 
-Goal goal(const GeneratorMeasurements& measured, const char* name, ControllerReading controller) {
+Goal goal(const GeneratorMeasurements& measured, const char* name, ControllerVariant controller) {
   const auto mse = measured.mse(measured.find(name), static_cast<int>(controller), GeneratorTest::clean);
   return {.what = name, .paper = "-", .study = "-", .measured = mse.value_or(Measured{})};
 }
 
 std::vector<Goal> goals_of(const GeneratorMeasurements& smooth, const GeneratorMeasurements& friction,
                            bool is_quick) {
-  Goal second_order = goal(smooth, kLevenbergMarquardt, ControllerReading::held);
+  Goal second_order = goal(smooth, kLevenbergMarquardt, ControllerVariant::held);
   second_order.what = "generator MLP 9-49-6, 2500 patterns, clean, held, Levenberg-Marquardt";
   second_order.paper = "small";
   second_order.study = "3.9e-5";
   second_order.bound = 4e-5;
-  Goal gradient = goal(smooth, kBackPropagation, ControllerReading::held);
+  Goal gradient = goal(smooth, kBackPropagation, ControllerVariant::held);
   gradient.what = "generator MLP 9-49-6, 2500 patterns, clean, held, back-propagation";
   gradient.paper = "small";
   gradient.study = "4.0e-4";
   gradient.bound = 4e-4;
-  Goal hybrid = goal(friction, kHybrid, ControllerReading::fast);
+  Goal hybrid = goal(friction, kHybrid, ControllerVariant::fast);
   hybrid.what = "generator hybrid on a robot with friction, clean, fast, identified from logs alone";
   hybrid.study = "8.1e-5";
   hybrid.bound = 5e-5;

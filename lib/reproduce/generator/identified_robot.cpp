@@ -31,7 +31,7 @@ Robot identified_robot(const Experiment& experiment, const LearningLogs& logs) {
     healthy.push_back(sources.back().get());
   }
   const bool is_held =
-      experiment.controller == ControllerReading::held || logs.sample_period_s < kSamplePeriod;
+      experiment.controller == ControllerVariant::held || logs.sample_period_s < kSamplePeriod;
   const Robot known = robot_as_known(is_held ? TorqueTiming::held : TorqueTiming::unknown);
   return identify(healthy, known, {.max_rows = logs.max_rows, .max_iterations = 10, .threads = 1}).robot;
 }

@@ -13,16 +13,16 @@ namespace {
 constexpr double kIntegrationStep = 0.0074;  // s; the bench robot without friction is smooth
 constexpr double kPdBandwidth = 5.0;         // rad/s: settles within a move of 1.2 to 1.8 s
 
-SimulationSpec spec_of(ControllerReading controller, double duration_s) {
+SimulationSpec spec_of(ControllerVariant controller, double duration_s) {
   SimulationSpec spec;
   spec.duration_s = duration_s;
   spec.sample_period_s = kSamplePeriod;
-  spec.control_period_s = controller == ControllerReading::held ? kSamplePeriod : kControlPeriod;
+  spec.control_period_s = controller == ControllerVariant::held ? kSamplePeriod : kControlPeriod;
   spec.max_step_s = kIntegrationStep;
   spec.motion.dwell_min_s = 0.0;
   spec.motion.dwell_max_s = 0.4;
   spec.controller = controller_spec(controller);
-  if (controller == ControllerReading::pd) spec.motion.profile = MotionProfile::step;
+  if (controller == ControllerVariant::pd) spec.motion.profile = MotionProfile::step;
   return spec;
 }
 
@@ -46,20 +46,20 @@ void add_noise(std::vector<double>& signal, double std, Random& random) {
 
 }  // namespace
 
-const char* to_string(ControllerReading controller) {
+const char* to_string(ControllerVariant controller) {
   switch (controller) {
-    case ControllerReading::held:
+    case ControllerVariant::held:
       return "held";
-    case ControllerReading::fast:
+    case ControllerVariant::fast:
       return "fast";
-    case ControllerReading::pd:
+    case ControllerVariant::pd:
       return "pd";
   }
   return "";
 }
 
-ControllerSpec controller_spec(ControllerReading controller) {
-  if (controller != ControllerReading::pd) return {};
+ControllerSpec controller_spec(ControllerVariant controller) {
+  if (controller != ControllerVariant::pd) return {};
   return {.kind = ControllerKind::pd_gravity, .bandwidth_rad_s = kPdBandwidth};
 }
 
@@ -83,7 +83,7 @@ Robot bench_robot_with_friction() {
   return robot;
 }
 
-HalfRanges half_ranges(const Robot& robot, ControllerReading controller) {
+HalfRanges half_ranges(const Robot& robot, ControllerVariant controller) {
   Log log;
   for (int i = 0; i < 100; ++i)
     append(log, trajectory(robot, controller, 25, seed_of(1, SeedUse::ranges, i)));
@@ -95,14 +95,14 @@ HalfRanges half_ranges(const Robot& robot, ControllerReading controller) {
   return ranges;
 }
 
-Experiment experiment_on(const Robot& robot, ControllerReading controller, std::uint64_t seed) {
+Experiment experiment_on(const Robot& robot, ControllerVariant controller, std::uint64_t seed) {
   return {robot, controller, half_ranges(robot, controller), seed};
 }
 
-Log trajectory(const Robot& robot, ControllerReading controller, int samples, std::uint64_t seed,
+Log trajectory(const Robot& robot, ControllerVariant controller, int samples, std::uint64_t seed,
                const ActingFault& fault) {
   // A step is a step only from somewhere: one sample of rest before it, which is cut off again.
-  const int lead = controller == ControllerReading::pd ? 1 : 0;
+  const int lead = controller == ControllerVariant::pd ? 1 : 0;
   const double lead_s = lead * kSamplePeriod;
   SimulationSpec spec = spec_of(controller, lead_s + samples * kSamplePeriod);
   Random random = Random::stream(seed, 2);
@@ -117,7 +117,7 @@ Log trajectory(const Robot& robot, ControllerReading controller, int samples, st
   return kept;
 }
 
-Log run_of_moves(const Robot& robot, ControllerReading controller, const RunOfMoves& run,
+Log run_of_moves(const Robot& robot, ControllerVariant controller, const RunOfMoves& run,
                  std::uint64_t seed) {
   SimulationSpec spec = spec_of(controller, run.duration_s);
   spec.sample_period_s = run.sample_period_s;
@@ -126,7 +126,7 @@ Log run_of_moves(const Robot& robot, ControllerReading controller, const RunOfMo
 }
 
 double share_with_a_start() {
-  const MotionSpec motion = spec_of(ControllerReading::pd, 0.0).motion;
+  const MotionSpec motion = spec_of(ControllerVariant::pd, 0.0).motion;
   const double move_s = 0.5 * (motion.move_min_s + motion.move_max_s);
   const double rest_s = 0.5 * (motion.dwell_min_s + motion.dwell_max_s);
   return kSamplePeriod / (move_s + rest_s);

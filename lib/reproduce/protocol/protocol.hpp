@@ -17,23 +17,23 @@ namespace faultline {
 struct ControllerSpec;
 
 /// The controller that the paper does not state, in three readings.
-enum class ControllerReading {
+enum class ControllerVariant {
   held,  ///< computed torque, quintic moves, the torque constant over each sample of 73 ms
   fast,  ///< the same at 1 kHz, logged every 73 ms
   pd,    ///< PD and gravity compensation at 1 kHz after step set-points, logged every 73 ms
 };
-inline constexpr ControllerReading kControllerReadings[] = {ControllerReading::held, ControllerReading::fast,
-                                                            ControllerReading::pd};
-inline constexpr int kControllers = static_cast<int>(std::size(kControllerReadings));
-const char* to_string(ControllerReading controller);
+inline constexpr ControllerVariant kControllerVariants[] = {ControllerVariant::held, ControllerVariant::fast,
+                                                            ControllerVariant::pd};
+inline constexpr int kControllers = static_cast<int>(std::size(kControllerVariants));
+const char* to_string(ControllerVariant controller);
 
 /// The paper's "variance = 0.01" has no unit. As a standard deviation in shares of half the range of each
 /// position and velocity it may be 0.01 or, read as a variance, 0.1.
-inline constexpr double kNoiseReadings[] = {0.0, 0.01, 0.1};
+inline constexpr double kNoiseVariants[] = {0.0, 0.01, 0.1};
 
 inline constexpr double kSamplePeriod = 0.073;   ///< s, the paper's
 inline constexpr double kControlPeriod = 0.001;  ///< s, of fast and pd
-ControllerSpec controller_spec(ControllerReading controller);
+ControllerSpec controller_spec(ControllerVariant controller);
 
 /// m = (1, 0.8, 0.5) kg, l = (1, 0.8) m, axes RRP: the paper gives no masses or lengths. Without friction, as
 /// in its simulation, or with some in every joint.
@@ -46,16 +46,16 @@ struct HalfRanges {
 };
 /// Of healthy motion under this controller: of q as asked for, of dq and tau as found in 100 trajectories of
 /// 25 samples, the size of the paper's training set.
-HalfRanges half_ranges(const Robot& robot, ControllerReading controller);
+HalfRanges half_ranges(const Robot& robot, ControllerVariant controller);
 
 /// What all draws of one experiment share.
 struct Experiment {
   Robot robot;  ///< the true one
-  ControllerReading controller = ControllerReading::held;
+  ControllerVariant controller = ControllerVariant::held;
   HalfRanges ranges;  ///< of that robot under that controller
   std::uint64_t seed = 1;
 };
-Experiment experiment_on(const Robot& robot, ControllerReading controller, std::uint64_t seed);
+Experiment experiment_on(const Robot& robot, ControllerVariant controller, std::uint64_t seed);
 
 /// A fault that acts from `onset_s` on; none by default.
 struct ActingFault {
@@ -65,7 +65,7 @@ struct ActingFault {
 
 /// A random move of 1.2 to 1.8 s between two points of the ranges (q1, q2 within 2 rad, q3 -0.35 to 0.05 m),
 /// then rest: `samples` + 1 rows from its start, without noise.
-Log trajectory(const Robot& robot, ControllerReading controller, int samples, std::uint64_t seed,
+Log trajectory(const Robot& robot, ControllerVariant controller, int samples, std::uint64_t seed,
                const ActingFault& fault = {});
 
 /// How long a run is, and how it is logged.
@@ -77,7 +77,7 @@ struct RunOfMoves {
 
 /// A run of such moves, each followed by a rest of up to 0.4 s, without noise. Ends early when a freed robot
 /// runs away. Readings whose torque changes every millisecond may be logged faster than the paper does.
-Log run_of_moves(const Robot& robot, ControllerReading controller, const RunOfMoves& run, std::uint64_t seed);
+Log run_of_moves(const Robot& robot, ControllerVariant controller, const RunOfMoves& run, std::uint64_t seed);
 /// Share of the samples of such a run within which a move begins, on average.
 double share_with_a_start();
 

@@ -43,7 +43,7 @@ Opinion opinion_of(const NetworkSum& sum, const std::vector<FaultLabel>& classes
 }
 
 /// The sums were not zero in between.
-bool continues(const Suspicion& earlier, const Suspicion& later) {
+bool continues(const SuspectSample& earlier, const SuspectSample& later) {
   const double samples = std::round((later.time_s - earlier.time_s) / kSamplePeriod);
   return later.samples - earlier.samples == static_cast<int>(samples);
 }
@@ -58,9 +58,9 @@ Case known_case(Episode episode, const FaultLabel& label) {
 }
 
 /// A false suspicion counts once: at its height.
-std::vector<Suspicion> heights(const std::vector<Suspicion>& suspicions, double before_s) {
-  std::vector<Suspicion> out;
-  for (const Suspicion& s : suspicions) {
+std::vector<SuspectSample> heights(const std::vector<SuspectSample>& suspicions, double before_s) {
+  std::vector<SuspectSample> out;
+  for (const SuspectSample& s : suspicions) {
     if (s.time_s >= before_s) break;
     const bool goes_on = !out.empty() && continues(out.back(), s);
     if (!goes_on)
@@ -113,15 +113,15 @@ Index class_of(const std::vector<FaultLabel>& classes, const FaultLabel& label) 
 
 }  // namespace
 
-double Suspicion::largest() const { return std::max(mlp.best, rbfn.best); }
+double SuspectSample::largest() const { return std::max(mlp.best, rbfn.best); }
 
-std::vector<Suspicion> suspicions_of(const SampleClassifier& classifier, const SampleOutputs& outputs,
-                                     double sample_cap, double least) {
+std::vector<SuspectSample> suspect_samples(const SampleClassifier& classifier, const SampleOutputs& outputs,
+                                           double sample_cap, double least) {
   const OutputMeaning meaning{classifier.classes, classifier.prior};
   RunningSums mlp(sample_log_odds(meaning, outputs.mlp, sample_cap));
   RunningSums rbfn(sample_log_odds(meaning, outputs.rbfn, sample_cap));
-  std::vector<Suspicion> suspicions;
-  Suspicion now;
+  std::vector<SuspectSample> suspicions;
+  SuspectSample now;
   for (Index i = 0; i < outputs.time.size(); ++i) {
     if (!outputs.mlp.col(i).allFinite() || !outputs.rbfn.col(i).allFinite()) continue;
     now.time_s = outputs.time[i];
@@ -133,7 +133,7 @@ std::vector<Suspicion> suspicions_of(const SampleClassifier& classifier, const S
   return suspicions;
 }
 
-std::vector<std::string> suspicion_feature_names(int faults) {
+std::vector<std::string> suspect_feature_names(int faults) {
   std::vector<std::string> names;
   for (const std::string network : {"mlp", "rbfn"}) {
     for (int c = 1; c <= faults; ++c) names.push_back(network + "_sum_" + std::to_string(c));
@@ -143,7 +143,7 @@ std::vector<std::string> suspicion_feature_names(int faults) {
   return names;
 }
 
-Episode episode_of(const Suspicion& s, const std::vector<FaultLabel>& classes, double threshold) {
+Episode episode_of(const SuspectSample& s, const std::vector<FaultLabel>& classes, double threshold) {
   Episode episode;
   for (const NetworkSum* network : {&s.mlp, &s.rbfn}) {
     for (const double sum : network->sum) episode.features.push_back(elementary::log1p(sum));
@@ -156,33 +156,33 @@ Episode episode_of(const Suspicion& s, const std::vector<FaultLabel>& classes, d
   return episode;
 }
 
-CaseBase cases_of_suspicions(const SampleDetector& detector, std::span<const ExperimentRun> runs,
-                             double sample_cap, double least, int most_false) {
-  CaseBase cases(suspicion_feature_names(static_cast<int>(detector.classifier.classes.size()) - 1));
-  std::vector<Suspicion> wrong;
+CaseBase cases_of_suspects(const SampleDetector& detector, std::span<const ExperimentRun> runs,
+                           double sample_cap, double least, int most_false) {
+  CaseBase cases(suspect_feature_names(static_cast<int>(detector.classifier.classes.size()) - 1));
+  std::vector<SuspectSample> wrong;
   const auto& classes = detector.classifier.classes;
   for (const ExperimentRun& run : runs) {
     const auto suspicions =
-        suspicions_of(detector.classifier, outputs_of(detector, run.log), sample_cap, least);
-    for (const Suspicion& s : heights(suspicions, run.onset_s)) wrong.push_back(s);
+        suspect_samples(detector.classifier, outputs_of(detector, run.log), sample_cap, least);
+    for (const SuspectSample& s : heights(suspicions, run.onset_s)) wrong.push_back(s);
     int taken = 0;
-    for (const Suspicion& s : suspicions)
+    for (const SuspectSample& s : suspicions)
       if (s.time_s >= run.onset_s && taken++ < kOfEachRun)
         cases.retain(known_case(episode_of(s, classes, least), run.fault));
   }
-  for (const Suspicion& s : thinned(wrong, most_false))
+  for (const SuspectSample& s : thinned(wrong, most_false))
     cases.retain(known_case(episode_of(s, classes, least), {}));
   cases.learn();
   return cases;
 }
 
-std::vector<Alarms> decide_suspicions(const std::vector<Suspicion>& suspicions,
-                                      const std::vector<FaultLabel>& classes, const CaseBase& cases,
-                                      std::span<const double> thresholds) {
+std::vector<Alarms> decide_suspects(const std::vector<SuspectSample>& suspicions,
+                                    const std::vector<FaultLabel>& classes, const CaseBase& cases,
+                                    std::span<const double> thresholds) {
   std::vector<Alarms> alarms(thresholds.size());
   for (std::size_t t = 0; t < thresholds.size(); ++t) {
-    const Suspicion* open = nullptr;  // the last one of the alarm that still stands
-    for (const Suspicion& s : suspicions) {
+    const SuspectSample* open = nullptr;  // the last one of the alarm that still stands
+    for (const SuspectSample& s : suspicions) {
       if (open && continues(*open, s)) {
         open = &s;
         continue;

@@ -24,7 +24,7 @@ struct NetworkSum {
 };
 
 /// A sample at which one of the networks suspects a fault: an episode before it is decided.
-struct Suspicion {
+struct SuspectSample {
   double time_s = 0.0;
   int samples = 0;  ///< since both networks' sums were zero
   NetworkSum mlp, rbfn;
@@ -33,26 +33,26 @@ struct Suspicion {
 };
 
 /// The samples at which a network's sum is at least `least` nats, in order of time.
-std::vector<Suspicion> suspicions_of(const SampleClassifier& classifier, const SampleOutputs& outputs,
-                                     double sample_cap, double least);
+std::vector<SuspectSample> suspect_samples(const SampleClassifier& classifier, const SampleOutputs& outputs,
+                                           double sample_cap, double least);
 
-std::vector<std::string> suspicion_feature_names(int faults);
+std::vector<std::string> suspect_feature_names(int faults);
 /// As case-based reasoning compares it. A network's opinion is its fault where its sum reaches `threshold`,
 /// else `none`.
-Episode episode_of(const Suspicion& suspicion, const std::vector<FaultLabel>& classes, double threshold);
+Episode episode_of(const SuspectSample& suspicion, const std::vector<FaultLabel>& classes, double threshold);
 
 /// Cases of suspicions of known truth in these runs: of each faulty run the first few after its onset, and
 /// false ones in between, at most `most_false` of all runs.
-CaseBase cases_of_suspicions(const SampleDetector& detector, std::span<const ExperimentRun> runs,
-                             double sample_cap, double least, int most_false);
+CaseBase cases_of_suspects(const SampleDetector& detector, std::span<const ExperimentRun> runs,
+                           double sample_cap, double least, int most_false);
 
 /// Decision at the level of the episode, for each threshold (nats, ascending): both networks sum up log odds,
 /// a network whose sum reaches the threshold names its fault. Where both name the same one it is believed;
 /// where only one does, or they name two, similar cases settle it: a fault, or a false alarm. Alarms for each
 /// threshold; after one, both sums have to return to zero before the next.
-std::vector<Alarms> decide_suspicions(const std::vector<Suspicion>& suspicions,
-                                      const std::vector<FaultLabel>& classes, const CaseBase& cases,
-                                      std::span<const double> thresholds);
+std::vector<Alarms> decide_suspects(const std::vector<SuspectSample>& suspicions,
+                                    const std::vector<FaultLabel>& classes, const CaseBase& cases,
+                                    std::span<const double> thresholds);
 
 /// Cases of single samples with both networks' outputs: at most `most_of_class` of each class.
 CaseBase cases_of_samples(const SampleDetector& detector, std::span<const ExperimentRun> runs,

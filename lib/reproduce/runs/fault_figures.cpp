@@ -11,7 +11,7 @@
 namespace faultline {
 namespace {
 
-constexpr ControllerReading kController = ControllerReading::held;
+constexpr ControllerVariant kController = ControllerVariant::held;
 constexpr double kShownAfter = 2.0;  // s of the fault: then the freed robot leaves all ranges
 constexpr int kJoint = 1;            // from 0: joint 2, as in the paper
 

@@ -55,7 +55,7 @@ HealthyLogs healthy_logs(const Experiment& experiment, double duration_s, double
   healthy.robot.name = robot.name;
   healthy.robot.known["l1"] = {robot.chain.length[0], 0.0};
   healthy.robot.log.torque_between_samples =
-      controller == ControllerReading::held ? TorqueTiming::held : TorqueTiming::unknown;
+      controller == ControllerVariant::held ? TorqueTiming::held : TorqueTiming::unknown;
   return healthy;
 }
 

@@ -19,8 +19,8 @@ constexpr int kNoisyIterations =
     30;  // of generators trained with noise, whose error is soon the noise itself
 
 constexpr int kMostG = 30;
-constexpr double kSampleCap = 10.0;      // nats; the least output that counts limits it to about as much
-constexpr double kLeastSuspicion = 1.5;  // nats
+constexpr double kSampleCap = 10.0;    // nats; the least output that counts limits it to about as much
+constexpr double kLeastLogOdds = 1.5;  // nats
 constexpr double kLargestThreshold = 70.0;
 constexpr double kThresholdStep = 1.15;
 constexpr int kCasesOfClass = 100;
@@ -39,7 +39,7 @@ struct ConditionRuns {
 
 std::vector<double> thresholds() {
   std::vector<double> values;
-  for (double value = kLeastSuspicion; value < kLargestThreshold; value *= kThresholdStep)
+  for (double value = kLeastLogOdds; value < kLargestThreshold; value *= kThresholdStep)
     values.push_back(value);
   return values;
 }
@@ -92,8 +92,8 @@ Sweep sweep(const SampleDetector& detector, const Cases& cases, std::span<const 
                           kMostG));
     if (sum_log_odds)
       add(out.cases_of_episodes, run,
-          decide_suspicions(suspicions_of(classifier, outputs, kSampleCap, kLeastSuspicion), meaning.classes,
-                            cases.suspicions, tried));
+          decide_suspects(suspect_samples(classifier, outputs, kSampleCap, kLeastLogOdds), meaning.classes,
+                          cases.suspicions, tried));
   }
   return out;
 }
@@ -110,11 +110,11 @@ DetectorResult chosen(const std::string& detector, const char* decision,
 /// under the paper's criterion and, with `sum_log_odds` (networks that put out probabilities), under summed
 /// log odds. `recipe` begins the detectors' names; of the recipe with `sum_log_odds` it is also counted how
 /// often both networks agree.
-void watch_with_networks(const SampleDetector& detector, const ConditionRuns& runs, const std::string& recipe,
-                         bool sum_log_odds, ConditionResult& result) {
+void detect_with_networks(const SampleDetector& detector, const ConditionRuns& runs,
+                          const std::string& recipe, bool sum_log_odds, ConditionResult& result) {
   Cases cases{cases_of_samples(detector, runs.training, kCasesOfClass), {}};
   if (sum_log_odds)
-    cases.suspicions = cases_of_suspicions(detector, runs.tuning, kSampleCap, kLeastSuspicion, kFalseCases);
+    cases.suspicions = cases_of_suspects(detector, runs.tuning, kSampleCap, kLeastLogOdds, kFalseCases);
   const Sweep tuning = sweep(detector, cases, runs.tuning, sum_log_odds);
   const Sweep test = sweep(detector, cases, runs.test, sum_log_odds);
   if (sum_log_odds) result.best_networks = test.agreement;
@@ -148,15 +148,15 @@ std::vector<AlarmScore> scores(const FilteredRobot& robot, std::span<const Exper
 
 /// Filters for the healthy robot and each free joint, the threshold of their summed log likelihood ratio
 /// chosen on `tuning`; the fault is named 0.6 s after the alarm, as `diagnose` does.
-DetectorResult watch_with_filters(const std::string& detector, const FilteredRobot& robot,
-                                  std::span<const ExperimentRun> tuning,
-                                  std::span<const ExperimentRun> test) {
+DetectorResult detect_with_filters(const std::string& detector, const FilteredRobot& robot,
+                                   std::span<const ExperimentRun> tuning,
+                                   std::span<const ExperimentRun> test) {
   const double threshold = kThresholds[choose_setting(scores(robot, tuning, kThresholds))];
   return {detector, decision_name::kLogOdds, threshold, scores(robot, test, {threshold}).front()};
 }
 
 /// What `diagnose` says with this model, named by either network alone and by both with cases.
-std::vector<DetectorResult> watch_with_product(const Learned& learned, std::span<const ExperimentRun> test) {
+std::vector<DetectorResult> detect_with_product(const Learned& learned, std::span<const ExperimentRun> test) {
   const double threshold = learned.model.explain.limits.of(FaultKind::free_swinging);
   std::vector<DetectorResult> results;
   for (const char* name :
@@ -195,7 +195,7 @@ struct RunBench {
   ResidualGenerator paper_generator;
 };
 
-RunBench run_bench(ControllerReading controller, const RunPlan& plan, std::uint64_t seed) {
+RunBench run_bench(ControllerVariant controller, const RunPlan& plan, std::uint64_t seed) {
   RunBench bench{experiment_on(bench_robot(), controller, seed), plan, {}, {}};
   bench.clean = {monitored_runs(bench.experiment, plan.training, SeedUse::run_training),
                  monitored_runs(bench.experiment, plan.tuning, SeedUse::run_tuning),
@@ -219,7 +219,7 @@ ResidualGenerator best_generator(const RunBench& bench, const Chain& identified,
   GeneratorRecipe recipe;
   recipe.sigma = sigma;
   recipe.trajectories = bench.plan.generator_trajectories;
-  if (bench.experiment.controller == ControllerReading::held) {
+  if (bench.experiment.controller == ControllerVariant::held) {
     recipe.fit.kind = ResidualKind::physics;
     recipe.assumed = identified;
   } else {
@@ -236,11 +236,11 @@ void append(std::vector<DetectorResult>& all, std::vector<DetectorResult> more) 
 ConditionResult run_condition(const RunBench& bench, double sigma) {
   const Experiment& e = bench.experiment;
   const RunPlan& plan = bench.plan;
-  const bool held = e.controller == ControllerReading::held;
+  const bool held = e.controller == ControllerVariant::held;
   const ConditionRuns runs = measured(bench, sigma);
   const HealthyLogs healthy = healthy_logs(e, plan.healthy_log_s, sigma);
   ConditionResult result{sigma, {}, {}};
-  watch_with_networks(train_paper_detector(bench.paper_generator, e), runs, "paper's recipe", false, result);
+  detect_with_networks(train_paper_detector(bench.paper_generator, e), runs, "paper's recipe", false, result);
 
   const bool learns = contains(plan.learned_sigmas, sigma);
   Learned learned;
@@ -248,31 +248,31 @@ ConditionResult run_condition(const RunBench& bench, double sigma) {
   const Chain identified = learns ? learned.model.robot.chain
                            : held ? identify_robot(healthy).robot.chain
                                   : e.robot.chain;
-  watch_with_networks(train_best_detector(best_generator(bench, identified, sigma), runs.training,
-                                          plan.patterns_per_class, e.seed),
-                      runs, "best recipe", true, result);
+  detect_with_networks(train_best_detector(best_generator(bench, identified, sigma), runs.training,
+                                           plan.patterns_per_class, e.seed),
+                       runs, "best recipe", true, result);
 
   const auto tuning = some_of(runs.tuning, plan.filter_tuning_faulty, plan.filter_tuning_h);
   if (learns) {
     const auto test = some_of(runs.test, plan.filter_faulty, plan.filter_fault_free_h);
-    result.detectors.push_back(watch_with_filters(
+    result.detectors.push_back(detect_with_filters(
         detector_name::kFilters,
         with_missed_share(std::get<OneStepModel>(learned.model.explain.robot), healthy.logs), tuning, test));
-    append(result.detectors, watch_with_product(learned, test));
+    append(result.detectors, detect_with_product(learned, test));
   }
   if (!contains(plan.filtered_sigmas, sigma)) return result;
   const FilteredRobot known = with_missed_share(known_steps(e.robot, healthy), healthy.logs);
   const auto test = some_of(runs.test, plan.reference_faulty, plan.reference_h);
-  result.detectors.push_back(watch_with_filters(detector_name::kReference, known, tuning, test));
+  result.detectors.push_back(detect_with_filters(detector_name::kReference, known, tuning, test));
   return result;
 }
 
 }  // namespace
 
-RunPlan run_plan(ControllerReading controller, bool quick) {
+RunPlan run_plan(ControllerVariant controller, bool quick) {
   RunPlan plan;
   plan.quick = quick;
-  const bool held = controller == ControllerReading::held;
+  const bool held = controller == ControllerVariant::held;
   if (held) plan.learned_sigmas = {0.01, 0.1};
   if (!held) {
     plan.training.fault_free_h = 0.5;
@@ -299,7 +299,7 @@ RunPlan run_plan(ControllerReading controller, bool quick) {
   return plan;
 }
 
-std::vector<ConditionResult> run_conditions(ControllerReading controller, const RunPlan& plan,
+std::vector<ConditionResult> run_conditions(ControllerVariant controller, const RunPlan& plan,
                                             std::uint64_t seed) {
   const RunBench bench = run_bench(controller, plan, seed);
   std::vector<ConditionResult> results;

@@ -29,7 +29,7 @@ struct RunPlan {
   std::vector<double> filtered_sigmas = {0.0, 0.01, 0.1};  ///< where filters run on the true robot
   bool quick = false;
 };
-RunPlan run_plan(ControllerReading controller, bool quick);
+RunPlan run_plan(ControllerVariant controller, bool quick);
 
 /// A detector on the test runs, its setting chosen on the tuning runs.
 struct DetectorResult {
@@ -59,7 +59,7 @@ struct ConditionResult {
 };
 
 /// Every detector under one controller, a result for each noise; experiment `seed`.
-std::vector<ConditionResult> run_conditions(ControllerReading controller, const RunPlan& plan,
+std::vector<ConditionResult> run_conditions(ControllerVariant controller, const RunPlan& plan,
                                             std::uint64_t seed);
 
 /// Names of detectors that goals and comparisons ask for.

@@ -11,7 +11,7 @@ namespace {
 
 std::vector<ControllerResults> run_all(const ReproduceOptions& options, const Progress& progress) {
   std::vector<ControllerResults> all;
-  for (const ControllerReading controller : kControllerReadings)
+  for (const ControllerVariant controller : kControllerVariants)
     all.push_back({controller, std::vector<std::vector<ConditionResult>>(options.seeds)});
   const int items = static_cast<int>(all.size()) * options.seeds;
   std::mutex reporting;

@@ -12,7 +12,7 @@ namespace faultline {
 
 /// The results of one controller: [seed][noise].
 struct ControllerResults {
-  ControllerReading controller = ControllerReading::held;
+  ControllerVariant controller = ControllerVariant::held;
   std::vector<std::vector<ConditionResult>> by_seed;
 };
 

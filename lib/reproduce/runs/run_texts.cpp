@@ -3,7 +3,7 @@
 
 namespace faultline::run_texts {
 
-std::string detectors(ControllerReading controller) {
+std::string detectors(ControllerVariant controller) {
   std::string text =
       R"(Faulty runs: random moves, a free-swinging joint 1, 2 or 3 from a moment uniform in 2 to 20 s,
 watched for 6 s more (less where the freed robot runs away). A fault counts as detected by the first alarm
@@ -13,7 +13,7 @@ nats) was chosen on other runs; noise is in half ranges, added to the same motio
 The *paper's recipe* trains on velocity residuals of the 900 noise-free patterns of table 1. The *best recipe*
 trains on torque-space residuals and ratios, on faults at any time, with the noise of use; its fault-free
 motion comes from )";
-  text += controller == ControllerReading::held
+  text += controller == ControllerVariant::held
               ? "the physics of the robot identified from three healthy logs of 2 min.\n\n"
               : R"(a 12-49-6 network trained with that noise, since physics does not describe the torque
 between two samples.
@@ -23,7 +23,7 @@ between two samples.
       R"(*Filters for free joints* are Kalman filters, one healthy and one a joint, whose log likelihood ratio
 is summed (CUSUM) and which name the joint 0.6 s after the alarm; with the true robot's parameters they are
 near what physics allows.)";
-  if (controller == ControllerReading::held)
+  if (controller == ControllerVariant::held)
     text +=
         R"( *Learn and diagnose* is this project's default: all kinds of faults compete, so that naming is
 harder, and the fault is named about 0.6 s after the alarm.)";

@@ -8,7 +8,7 @@
 /// What readers of the tables on detection at any time are told.
 namespace faultline::run_texts {
 
-std::string detectors(ControllerReading controller);
+std::string detectors(ControllerVariant controller);
 std::string trade_off();
 std::string comparison();
 

@@ -15,7 +15,7 @@ constexpr double kActuatorMemory_s = 0.03;  // length of the lags: of a current 
 constexpr double kLawMemory_s = 0.01;       // length of the lags: of a controller's filters
 constexpr int kFewestLags = 2, kMostLags = 16;
 
-constexpr double kHelps = 0.75;         // ratio of middle_straying(): below it the speed is used
+constexpr double kHelps = 0.75;         // ratio of middle_deviation(): below it the speed is used
 constexpr double kOfPlain = 1.0 / 3.0;  // ratio of the limits with speed to those without, at least
 constexpr double kKeepsGain = 0.8;      // ratio of the command's weights: below it the speed is not used
 
@@ -62,7 +62,7 @@ SignalRelation with_speed(SignalRelation drive) {
 /// Whether the speed improves the relation, but does not replace the command: a drive that gives another
 /// torque, and so another speed, would then seem healthy.
 bool speed_helps(const SignalRelation& with_speed, const SignalRelation& plain) {
-  return middle_straying(with_speed) < kHelps * middle_straying(plain) &&
+  return middle_deviation(with_speed) < kHelps * middle_deviation(plain) &&
          with_speed.weights[0] > kKeepsGain * plain.weights[0];
 }
 

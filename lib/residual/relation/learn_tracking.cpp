@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMemories_s[] = {0.1, 0.4, 1.6};  // of position loops, from stiff to soft
 constexpr int kTrackingFewestLags = 2, kTrackingMostLags = 8;
-constexpr double kTrackingHelps = 0.75;  // ratio of middle_straying(): below it a longer memory is used
+constexpr double kTrackingHelps = 0.75;  // ratio of middle_deviation(): below it a longer memory is used
 constexpr double kRateHelps = 0.5;       // the same ratio for a rate limit
 constexpr double kFollows = 0.5;        // share of the target's variance that its reference explains at least
 constexpr double kFollowsWell = 0.999;  // share of the same from which on no rate limit is tried
@@ -69,7 +69,7 @@ bool fit_tracking(std::span<LogSource* const> logs, const std::vector<Fold>& fol
   SignalRelation best = relation;
   const auto is_better = [&](SignalRelation& candidate, double helps) {
     return fit(logs, folds, alarms_per_hour, candidate) &&
-           (!fits || middle_straying(candidate) < helps * middle_straying(best));
+           (!fits || middle_deviation(candidate) < helps * middle_deviation(best));
   };
   for (const double memory_s : kMemories_s) {
     SignalRelation candidate = relation;
@@ -85,7 +85,7 @@ bool fit_tracking(std::span<LogSource* const> logs, const std::vector<Fold>& fol
     set_memory(limited, kMemories_s[0]);
     const auto straying = [&](double share) {
       limited.rate_limit = share * rate;
-      return fit(logs, folds, alarms_per_hour, limited) ? middle_straying(limited)
+      return fit(logs, folds, alarms_per_hour, limited) ? middle_deviation(limited)
                                                         : std::numeric_limits<double>::infinity();
     };
     limited.rate_limit = golden_section(kLeastRate, kMostRate, kRounds, straying) * rate;

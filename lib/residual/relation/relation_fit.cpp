@@ -107,16 +107,16 @@ Moments moments_of(std::span<LogSource* const> logs, const Fold& fold, SignalRel
 }
 
 /// Statistics of residual means over windows, on held-out rows.
-struct Straying {
-  explicit Straying(std::size_t windows) : square(windows), largest(windows), count(windows) {}
+struct WindowMeanStats {
+  explicit WindowMeanStats(std::size_t windows) : square(windows), largest(windows), count(windows) {}
 
   std::vector<double> square, largest;
   std::vector<long long> count;
   double residual_square = 0.0;
 };
 
-void add_straying(std::span<LogSource* const> logs, const Fold& fold, const SignalRelation& relation,
-                  Straying& straying) {
+void add_window_means(std::span<LogSource* const> logs, const Fold& fold, const SignalRelation& relation,
+                      WindowMeanStats& straying) {
   RelationResidual residual(relation);
   WindowedMeans means(window_rows(kRelationWindows_s, relation.period_s));
   for_each_row(logs, fold, [&](const Log& segment, int k) {
@@ -146,8 +146,8 @@ double stds_of(double alarms_per_hour, double window_s) {
 }
 
 /// Returns limits of the windows that healthy logs fill; the windows share the rate of alarms.
-std::vector<WindowLimit> limits_of(const Straying& straying, const std::vector<int>& rows, double scale,
-                                   double alarms_per_hour) {
+std::vector<WindowLimit> limits_of(const WindowMeanStats& straying, const std::vector<int>& rows,
+                                   double scale, double alarms_per_hour) {
   std::vector<WindowLimit> windows;
   for (std::size_t w = 0; w < straying.square.size(); ++w) {
     if (straying.count[w] < kFewestWindows * rows[w]) break;
@@ -174,7 +174,7 @@ void widen_terms(SignalRelation& relation) {
 
 }  // namespace
 
-double middle_straying(const SignalRelation& relation) {
+double middle_deviation(const SignalRelation& relation) {
   return relation.windows[std::min<std::size_t>(kMiddleWindow, relation.windows.size() - 1)].std;
 }
 
@@ -206,13 +206,13 @@ bool fit(std::span<LogSource* const> logs, const std::vector<Fold>& folds, doubl
   std::vector<Moments> parts;
   for (const Fold& fold : folds) all += parts.emplace_back(moments_of(logs, fold, relation));
   if (all.rows < kFewestRows * relation.weights_needed()) return false;
-  Straying straying(std::size(kRelationWindows_s));
+  WindowMeanStats straying(std::size(kRelationWindows_s));
   for (std::size_t f = 0; f < folds.size(); ++f) {
     const Moments rest = without(all, parts[f]);
     if (rest.rows < relation.weights_needed()) continue;
     SignalRelation left_out = relation;
     left_out.weights = weights_of(rest);
-    add_straying(logs, folds[f], left_out, straying);
+    add_window_means(logs, folds[f], left_out, straying);
   }
   const double variance = all.square - all.sum * all.sum / static_cast<double>(all.rows);
   if (!(variance > 0.0)) return false;

@@ -26,7 +26,7 @@ bool fit(std::span<LogSource* const> logs, const std::vector<Fold>& folds, doubl
          SignalRelation& relation);
 
 /// Standard deviation of the mean residual over a middle window, in the target's unit: the quality of a fit.
-double middle_straying(const SignalRelation& relation);
+double middle_deviation(const SignalRelation& relation);
 
 /// Largest torque of the healthy logs; for tracking the range of position or velocity. In the target's
 /// unit.

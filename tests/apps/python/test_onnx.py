@@ -134,7 +134,7 @@ class Export(InFolder):
         path, _ = varied_model(self.folder / "physics.json", by_physics)
         model = faultline.load_model(path, cases=CASES)
         self.assertEqual([one.network for one in model.to_onnx(self.folder / "nets")], NETWORKS[1:])
-        with self.assertRaisesRegex(faultline.UsageError, "none of this model's"):
+        with self.assertRaisesRegex(faultline.UsageError, "not a network of this model"):
             model.network_inputs("residual_mlp", LOGS / "locked_1.csv")
 
     def test_no_row_one_row_and_missing_numbers(self):

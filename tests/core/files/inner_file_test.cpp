@@ -96,7 +96,7 @@ TEST_F(InnerFile, PipesDevicesAndFoldersAreNotOpened) {
   fs::create_directory(at("logs/folder"));
   expect_unused("logs/folder", "logs/folder", "folder");
   write_file(at("file"), "x");
-  expect_unused("file/below", "file", "no folder");
+  expect_unused("file/below", "file", "not a folder");
 }
 
 TEST_F(InnerFile, AFileThatIsTooLongIsRefused) {

@@ -73,11 +73,11 @@ TEST(RelationFindings, ALossIsSaidWithItsShareAndALawWithWhereToLook) {
 }
 
 TEST(RelationFindings, TheTorqueBalancesPartOfTheEvidenceIsSaid) {
-  const RelationEpisode strayed = episode(RelationKind::actuator, 1, 3.0, 3.2);
-  JudgedStretch fault = judge_stretch(stretches_of({strayed}, TorqueMeaning::commanded)[0], nullptr);
-  EXPECT_EQ(item(finding_of(strayed, fault, 9.0, model()), "motion"), nullptr);
+  const RelationEpisode largest_mean = episode(RelationKind::actuator, 1, 3.0, 3.2);
+  JudgedStretch fault = judge_stretch(stretches_of({largest_mean}, TorqueMeaning::commanded)[0], nullptr);
+  EXPECT_EQ(item(finding_of(largest_mean, fault, 9.0, model()), "motion"), nullptr);
   fault.in_balance = 75.0;
-  const FaultFinding finding = finding_of(strayed, fault, 9.0, model());
+  const FaultFinding finding = finding_of(largest_mean, fault, 9.0, model());
   ASSERT_NE(item(finding, "motion"), nullptr);
   EXPECT_DOUBLE_EQ(item(finding, "motion")->value, 75.0);
   EXPECT_EQ(finding.decided_by, DecidedBy::actuator);

@@ -75,7 +75,7 @@ TEST(ClassifierStudy, AQuickRunHasTheTablesAndTheirOrdersOfMagnitude) {
 }
 
 TEST(ClassifierStudy, ARecipeGivesTheSameNumbersAgain) {
-  const ClassifierBench bench(ControllerReading::held, 4, 3, 9);
+  const ClassifierBench bench(ControllerVariant::held, 4, 3, 9);
   const ClassifierRecipe recipe = classifier_recipes({.iterations = 20})[kBestCleanRecipe];
   const ClassifierErrors first = bench.measure(recipe), again = bench.measure(recipe);
   EXPECT_EQ(first.mlp.test, again.mlp.test);

@@ -9,7 +9,7 @@ namespace faultline {
 namespace {
 
 TEST(FaultTrajectories, TheTrainingSetIsThatOfTable1) {
-  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 3);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerVariant::held, 3);
   const FaultPatterns patterns = fault_patterns(experiment, {}, SeedUse::classifier_training);
   EXPECT_EQ(patterns.count(), 900);
   const int expected[] = {200, 200, 350, 150};
@@ -20,14 +20,14 @@ TEST(FaultTrajectories, TheTrainingSetIsThatOfTable1) {
 }
 
 TEST(FaultTrajectories, AnyNumberHasTheMixOfTable1) {
-  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 3);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerVariant::held, 3);
   const FaultPatterns patterns = fault_patterns(experiment, {.count = 45}, SeedUse::classifier_test);
   for (int output = 0; output < kFaultClasses; ++output)
     EXPECT_NEAR(patterns.of_class[output].count() / 450.0, table_1_prior()[output], 0.03);
 }
 
 TEST(FaultTrajectories, AFreeThirdJointFallsAndAHealthyOneIsHeld) {
-  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 3);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerVariant::held, 3);
   const FaultPatterns patterns = fault_patterns(experiment, {.count = 9}, SeedUse::classifier_test);
   const Transitions& fallen = patterns.of_class[2];
   for (int i = 0; i < fallen.count(); ++i)

@@ -6,7 +6,7 @@
 namespace faultline {
 namespace {
 
-class TransitionPosterior : public testing::TestWithParam<ControllerReading> {
+class TransitionPosterior : public testing::TestWithParam<ControllerVariant> {
  protected:
   FaultPatterns patterns(int count, double sigma, SeedUse use) const {
     return fault_patterns(experiment, {.count = count, .sigma = sigma, .torque_phi = 0.5}, use);
@@ -20,7 +20,7 @@ class TransitionPosterior : public testing::TestWithParam<ControllerReading> {
 
 TEST(SampleModel, PredictsEachClassUnderHeldAndPd) {
   const Robot robot = bench_robot();
-  for (const ControllerReading controller : {ControllerReading::held, ControllerReading::pd}) {
+  for (const ControllerVariant controller : {ControllerVariant::held, ControllerVariant::pd}) {
     const Experiment experiment = experiment_on(robot, controller, 2);
     const SampleModel model(robot, controller, TorqueBetween::controlled);
     const FaultPatterns test = fault_patterns(experiment, {.count = 9}, SeedUse::classifier_test);
@@ -49,14 +49,14 @@ TEST_P(TransitionPosterior, ErrorGrowsWithTheNoiseAndStaysBelowThatOfThePrior) {
   const double knows_nothing = (1.0 - prior.squaredNorm()) / kFaultClasses;
   double errors[3];
   for (int noise = 0; noise < 3; ++noise)
-    errors[noise] = posterior_error(model, patterns(36, kNoiseReadings[noise], SeedUse::classifier_test),
-                                    experiment.ranges, kNoiseReadings[noise]);
+    errors[noise] = posterior_error(model, patterns(36, kNoiseVariants[noise], SeedUse::classifier_test),
+                                    experiment.ranges, kNoiseVariants[noise]);
   EXPECT_LT(errors[0], errors[2]);
   EXPECT_LT(errors[1], errors[2]);
   EXPECT_LT(errors[2], 0.5 * knows_nothing);
 }
 
-INSTANTIATE_TEST_SUITE_P(Controllers, TransitionPosterior, testing::ValuesIn(kControllerReadings),
+INSTANTIATE_TEST_SUITE_P(Controllers, TransitionPosterior, testing::ValuesIn(kControllerVariants),
                          [](const auto& controller) { return std::string(to_string(controller.param)); });
 
 }  // namespace

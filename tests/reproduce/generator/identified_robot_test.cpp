@@ -13,7 +13,7 @@ TEST(IdentifiedRobot, masses_and_friction_are_found_from_held_logs_without_being
   EXPECT_EQ(known.chain.friction[0].coulomb, 0.0);
   EXPECT_NE(known.chain.links[1].mass, truth.chain.links[1].mass);
   const Robot found =
-      identified_robot(experiment_on(truth, ControllerReading::held, 1), {.count = 1, .max_rows = 200});
+      identified_robot(experiment_on(truth, ControllerVariant::held, 1), {.count = 1, .max_rows = 200});
   for (int j = 0; j < 3; ++j) {
     EXPECT_NEAR(found.chain.friction[j].coulomb, truth.chain.friction[j].coulomb, 1e-3);
     EXPECT_NEAR(found.chain.friction[j].viscous, truth.chain.friction[j].viscous, 1e-3);
@@ -22,7 +22,7 @@ TEST(IdentifiedRobot, masses_and_friction_are_found_from_held_logs_without_being
 }
 
 TEST(IdentifiedRobot, the_timing_of_a_torque_that_is_not_held_is_found_half_way) {
-  const Robot found = identified_robot(experiment_on(bench_robot(), ControllerReading::fast, 1),
+  const Robot found = identified_robot(experiment_on(bench_robot(), ControllerVariant::fast, 1),
                                        {.count = 1, .max_rows = 300});
   ASSERT_TRUE(found.torque_phi);
   EXPECT_NEAR(*found.torque_phi, 0.5, 0.05);

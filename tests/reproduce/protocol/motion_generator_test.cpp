@@ -7,7 +7,7 @@ namespace faultline {
 namespace {
 
 TEST(MotionGenerator, runs_hold_as_many_patterns_as_trajectories) {
-  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 1);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerVariant::held, 1);
   const auto use = SeedUse::generator_test;
   const auto single = healthy_trajectories(experiment, 20, 0.0, use);
   const auto runs = healthy_runs(experiment, 20, 0.0, use);
@@ -17,7 +17,7 @@ TEST(MotionGenerator, runs_hold_as_many_patterns_as_trajectories) {
 }
 
 TEST(MotionGenerator, no_test_trajectory_is_trained_on) {
-  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 1);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerVariant::held, 1);
   const auto training = healthy_trajectories(experiment, 120, 0.0, SeedUse::generator_training);
   const auto test = healthy_trajectories(experiment, 200, 0.0, SeedUse::generator_test);
   for (const Log& mine : test)
@@ -34,7 +34,7 @@ TEST(MotionGenerator, the_error_is_in_half_ranges_of_each_output) {
 }
 
 TEST(MotionGenerator, physics_of_the_true_robot_is_exact_when_the_torque_is_held) {
-  const Experiment experiment = experiment_on(bench_robot(), ControllerReading::held, 1);
+  const Experiment experiment = experiment_on(bench_robot(), ControllerVariant::held, 1);
   GeneratorRecipe recipe;
   recipe.fit.kind = ResidualKind::physics;
   const ResidualGenerator physics = untrained_generator(experiment.robot, recipe);

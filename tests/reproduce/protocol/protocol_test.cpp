@@ -10,7 +10,7 @@ namespace faultline {
 namespace {
 
 TEST(Protocol, a_trajectory_of_25_samples_gives_25_transitions_of_73_ms) {
-  for (const ControllerReading controller : kControllerReadings) {
+  for (const ControllerVariant controller : kControllerVariants) {
     const Log log = trajectory(bench_robot(), controller, 25, 3);
     EXPECT_EQ(log.rows(), 26) << to_string(controller);
     EXPECT_GT(std::abs(log.q[0][25] - log.q[0][0]), 0.1);
@@ -21,7 +21,7 @@ TEST(Protocol, a_trajectory_of_25_samples_gives_25_transitions_of_73_ms) {
 }
 
 TEST(Protocol, the_first_held_torque_of_a_quintic_from_rest_is_zero_but_for_gravity) {
-  const Log log = trajectory(bench_robot(), ControllerReading::held, 10, 5);
+  const Log log = trajectory(bench_robot(), ControllerVariant::held, 10, 5);
   EXPECT_NEAR(log.tau[0][0], 0.0, 1e-9);
   EXPECT_NEAR(log.tau[1][0], 0.0, 1e-9);
   EXPECT_NEAR(log.tau[2][0], 0.5 * 9.81, 1e-9);
@@ -29,8 +29,8 @@ TEST(Protocol, the_first_held_torque_of_a_quintic_from_rest_is_zero_but_for_grav
 
 TEST(Protocol, noise_has_the_standard_deviation_asked_for_in_half_ranges) {
   const Robot robot = bench_robot();
-  const HalfRanges ranges = half_ranges(robot, ControllerReading::held);
-  Log log = run_of_moves(robot, ControllerReading::held, {.duration_s = 600.0}, 7);
+  const HalfRanges ranges = half_ranges(robot, ControllerVariant::held);
+  Log log = run_of_moves(robot, ControllerVariant::held, {.duration_s = 600.0}, 7);
   const Log clean = log;
   add_noise(log, ranges, 0.1, 9);
   for (int j = 0; j < 3; ++j) {

@@ -19,14 +19,14 @@ NetworkSum sum_of(double first, double second) {
   return sum;
 }
 
-Suspicion suspicion(double time_s, int samples, const NetworkSum& mlp, const NetworkSum& rbfn) {
+SuspectSample suspicion(double time_s, int samples, const NetworkSum& mlp, const NetworkSum& rbfn) {
   return {time_s, samples, mlp, rbfn};
 }
 
 /// On record: the MLP alone was wrong, the RBFN alone was right.
 CaseBase cases() {
-  CaseBase base(suspicion_feature_names(2));
-  auto retain = [&](const Suspicion& s, const FaultLabel& label) {
+  CaseBase base(suspect_feature_names(2));
+  auto retain = [&](const SuspectSample& s, const FaultLabel& label) {
     Case c;
     c.episode = episode_of(s, kClasses, 5.0);
     c.decision = c.label = label;
@@ -44,7 +44,7 @@ CaseBase cases() {
 
 TEST(DualDecision, believes_networks_that_agree_and_lets_cases_settle_the_rest) {
   const double dt = kSamplePeriod;
-  const std::vector<Suspicion> suspicions = {
+  const std::vector<SuspectSample> suspicions = {
       suspicion(1.0, 2, sum_of(6.2, 0.0), sum_of(0.0, 0.0)),       // a false alarm, say the cases
       suspicion(5.0, 2, sum_of(0.0, 0.0), sum_of(0.0, 6.2)),       // joint 2, say the cases
       suspicion(5.0 + dt, 3, sum_of(0.0, 7.0), sum_of(0.0, 9.0)),  // goes on
@@ -52,7 +52,7 @@ TEST(DualDecision, believes_networks_that_agree_and_lets_cases_settle_the_rest) 
       suspicion(12.0, 2, sum_of(4.0, 0.0), sum_of(4.0, 0.0)),      // below the threshold
   };
   const double thresholds[] = {5.0};
-  const Alarms alarms = decide_suspicions(suspicions, kClasses, cases(), thresholds)[0];
+  const Alarms alarms = decide_suspects(suspicions, kClasses, cases(), thresholds)[0];
   ASSERT_EQ(alarms.size(), 2u);
   EXPECT_EQ(alarms[0].time_s, 5.0);
   EXPECT_EQ(alarms[0].label, kClasses[1]);

@@ -8,7 +8,7 @@ namespace {
 
 const RunSet kSet{.faulty = 6, .fault_free_h = 0.05, .hour_s = 100.0};
 
-Experiment held_experiment() { return experiment_on(bench_robot(), ControllerReading::held, 1); }
+Experiment held_experiment() { return experiment_on(bench_robot(), ControllerVariant::held, 1); }
 
 TEST(MonitoredRuns, have_the_faults_onsets_and_hours_asked_for) {
   const auto runs = monitored_runs(held_experiment(), kSet, SeedUse::run_test);

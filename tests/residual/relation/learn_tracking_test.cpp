@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lib/log/memory_source.hpp"
-#include "lib/residual/relation/relation_watch.hpp"
+#include "lib/residual/relation/relation_detector.hpp"
 #include "tests/residual/relation/stepped_joint.hpp"
 
 namespace faultline {
@@ -31,7 +31,7 @@ std::vector<RelationEpisode> watched(const std::vector<SignalRelation>& relation
                                      Quantity target) {
   for (const SignalRelation& relation : relations) {
     if (relation.target != target) continue;
-    RelationWatch watch(relation);
+    RelationDetector watch(relation);
     watch.take(log);
     watch.finish();
     return watch.episodes();

@@ -168,11 +168,11 @@ void expect_error(const std::string& text, const std::string& where, const std::
 TEST(DenavitHartenberg, WhatElsePlacesJointsIsRefused) {
   const std::string row = "[[joint]]\nkind = \"revolute\"\ndh = {a = 1}\n";
   expect_error("axes = \"R\"\n" + row, "line 1, key axes", "leave out axes");
-  expect_error(row + "axis = [0, 0, 1]\n", "joint[1].axis", "beside dh");
+  expect_error(row + "axis = [0, 0, 1]\n", "joint[1].axis", "together with dh");
   expect_error(row + row + "mdh = {a = 1}\n", "joint[2].mdh", "one convention");
   expect_error(row + "[[joint]]\nkind = \"prismatic\"\n", "joint[2]", "every joint");
-  expect_error(row + "[known]\nl1 = 1\n", "r.toml", "length beside dh");
-  expect_error(row + "[[link]]\nlength = 1\n", "r.toml", "length beside dh");
+  expect_error(row + "[known]\nl1 = 1\n", "r.toml", "length together with dh");
+  expect_error(row + "[[link]]\nlength = 1\n", "r.toml", "length together with dh");
   expect_error(row + "[[link]]\nshape = \"rod\"\n", "link", "rod");
   expect_error("[[joint]]\nkind = \"revolute\"\ndh = {a = 1, alfa = 2}\n", "joint[1].dh.alfa", "\"alpha\"");
 }

@@ -79,7 +79,7 @@ std::string term_table(const Identification& id) {
   std::vector<HtmlRow> rows;
   for (const ModelTerm& t : id.terms)
     rows.push_back({t.name, std::to_string(t.joint + 1), fact_text(t.error_before), fact_text(t.error_after),
-                    std::string("it ") + worth_words(t)});
+                    std::string("it ") + term_verdict(t)});
   return html_table(FactTable{"Candidate terms, and the held-out torque residual without and with them",
                               {"term", "joint", "without it", "with it", "outcome"},
                               rows});

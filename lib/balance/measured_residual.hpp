@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lib/balance/row_frame.hpp"
+#include "lib/robot/fast_dynamics.hpp"
+
+namespace faultline {
+
+/// Residual torque in the rows of a log, and in those of logs that differ from it in the measurements of one
+/// joint: torque - column * theta of BalanceRows except for the spring columns, computed without the columns.
+class MeasuredResidual {
+ public:
+  /// Throws Error(input) when the log is shorter than the kernels.
+  MeasuredResidual(const UniformLog& log, RowSetting setting, const RigidColumns& rigid,
+                   Eigen::VectorXd theta);
+
+  /// Returns the residual of the log with other measurements of joint `joint` (from 0): rows from `first_row`
+  /// on x joints, N m or N.
+  Eigen::MatrixXd of(const MeasuredMotion& moved, int joint, int first_row = 0) const;
+
+ private:
+  /// Returns the torque of joint `joint` minus its friction, offset, delay and ripple, by interval.
+  Eigen::VectorXd drive(int joint, const Eigen::VectorXd& speed, const Eigen::VectorXd& q) const;
+
+  RowSetting setting_;
+  ColumnLayout layout_;
+  Eigen::VectorXd theta_;
+  RowFrame frame_;
+  Eigen::MatrixXd q_;  ///< joints x samples, of the log
+  FastDynamics dynamics_;
+  Eigen::MatrixXd drive_;  ///< intervals x joints, of the log
+};
+
+}  // namespace faultline

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "lib/identify/verdict/confounded_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "lib/core/matrix/decompositions.hpp"
+#include "lib/identify/weak_form/chooser.hpp"
+#include "lib/identify/weak_form/column_selection.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr double kShown = 1e-6;          // of the squared column: least share from moving joints
+constexpr double kFrictionAlone = 0.95;  // of the explained torque: more shows that the joint is undriven
+constexpr double kOtherwise = 0.2;       // of a parameter: the driven joints give another value,
+constexpr double kOtherwiseStd = 3;      // by so many standard deviations
+
+bool has(const std::vector<int>& joints, int joint) {
+  return std::find(joints.begin(), joints.end(), joint + 1) != joints.end();
+}
+
+/// Returns, of the torque that the model explains of each joint, the share that its own friction explains.
+Eigen::VectorXd friction_share(const ParameterSpace& space, const TorqueFit& torque) {
+  const WeakSystem& s = torque.system;
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(space.joints());
+  for (int j = 0; j < space.joints(); ++j) {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index k = 0; k < s.y.size(); ++k)
+      if (s.joint[k] == j && s.use[k] > 0.0) rows.push_back(k);
+    if (rows.empty()) continue;
+    const std::vector<int> own{space.viscous(j), space.coulomb(j), space.offset(j)};
+    const Eigen::MatrixXd a = s.a(rows, own);
+    const Eigen::VectorXd y = s.y(rows), left = y - a * least_squares(a, y);
+    const double all = y.squaredNorm(), explained = all - torque.fit.residual(rows).squaredNorm();
+    if (explained > 0.0) share[j] = (all - left.squaredNorm()) / explained;
+  }
+  return share;
+}
+
+}  // namespace
+
+void mark_unmoved_joints(const ParameterSpace& space, const std::vector<int>& still, TorqueFit& torque) {
+  for (int p = 0; p < space.rigid(); ++p) {
+    double all = 0.0, shown = 0.0;
+    for (Eigen::Index k = 0; k < torque.system.a.rows(); ++k) {
+      const double square = torque.system.a(k, p) * torque.system.a(k, p);
+      all += square;
+      if (!has(still, torque.system.joint[k])) shown += square;
+    }
+    if (shown <= kShown * all) torque.fit.confounded[p] = true;
+  }
+}
+
+std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& torque) {
+  const int n = space.joints();
+  const Eigen::VectorXd friction = friction_share(space, torque);
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(n), rows = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index k = 0; k < torque.system.y.size(); ++k)
+    if (torque.system.use[k] > 0.0) {
+      square[torque.system.joint[k]] += torque.system.y[k] * torque.system.y[k];
+      rows[torque.system.joint[k]] += 1.0;
+    }
+  const Eigen::VectorXd rms = square.cwiseQuotient(rows.cwiseMax(1.0)).cwiseSqrt();
+  std::vector<int> undriven;
+  for (int j = 0; j < n; ++j)
+    for (int other = 0; other < n; ++other)
+      if (space.chain.geometry[other].kind == space.chain.geometry[j].kind && rows[j] > 0.0 &&
+          (rms[j] < kUndrivenShare * rms[other] || (rms[j] < rms[other] && friction[j] > kFrictionAlone))) {
+        undriven.push_back(j + 1);
+        break;
+      }
+  return undriven;
+}
+
+void mark_undriven_joints(const ParameterSpace& space, const std::vector<int>& undriven, TorqueFit& torque) {
+  if (undriven.empty()) return;
+  WeakSystem driven = torque.system;
+  std::vector<bool> felt(space.rigid(), false);
+  for (Eigen::Index k = 0; k < driven.y.size(); ++k) {
+    if (!has(undriven, driven.joint[k])) continue;
+    for (int p = 0; p < space.rigid(); ++p) felt[p] = felt[p] || driven.a(k, p) != 0.0;
+    driven.use[k] = 0.0;
+  }
+  const WeakFit alone = fit_weak_form(driven, space, torque.fit.parameters, torque.wanted);
+  for (int p = 0; p < space.rigid(); ++p) {
+    if (!felt[p] || !torque.fit.free[p] || !alone.free[p] || alone.confounded[p]) continue;
+    const double apart = std::abs(alone.parameters[p] - torque.fit.parameters[p]);
+    const double size = std::max(std::abs(alone.parameters[p]), std::abs(torque.fit.parameters[p]));
+    const double std = std::sqrt(alone.covariance(p, p) + torque.fit.covariance(p, p));
+    if (apart > kOtherwise * size && apart > kOtherwiseStd * std) torque.fit.confounded[p] = true;
+  }
+}
+
+std::vector<int> mark_beside_offsets(const ParameterSpace& space, const Robot& robot, TorqueFit& torque) {
+  std::vector<int> joints;
+  const Eigen::MatrixXd a = torque.fit.weight.cwiseSqrt().asDiagonal() * torque.system.a;
+  for (int rotor = 0; rotor < space.rigid(); ++rotor) {
+    if (!space.base[rotor].is_rotor || !torque.fit.free[rotor] || torque.fit.confounded[rotor]) continue;
+    const int joint = space.base[rotor].joint;
+    if (torque.wanted[space.offset(joint)] || robot.known.count("fo" + std::to_string(joint + 1)) > 0)
+      continue;
+    std::vector<bool> wanted = torque.fit.free;
+    wanted[space.offset(joint)] = true;
+    const ColumnSelection with = select_columns(a, wanted, space.rigid());
+    if (!with.confounded[space.offset(joint)]) continue;
+    joints.push_back(joint + 1);
+    for (int p = 0; p < space.rigid(); ++p)
+      if (torque.fit.free[p] && with.confounded[p]) torque.fit.confounded[p] = true;
+  }
+  return joints;
+}
+
+}  // namespace faultline
