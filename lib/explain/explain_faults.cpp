@@ -138,19 +138,25 @@ std::vector<FaultClaim> claims_but(const std::vector<ExplainedFault>& faults, st
   return out;
 }
 
+/// Onset and end of faults that are judged again.
+enum class Times { as_claimed, refined };
+
 /// Judges each fault again with all others known, in order, and drops it if they explain the log without it.
 std::vector<ExplainedFault> judged_beside(const UniformLog& log, const BalanceModel& model,
                                           const EvidenceLimits& limits, const std::vector<FaultClaim>& before,
-                                          const RowNoise& noise, std::vector<ExplainedFault> faults) {
+                                          const RowNoise& noise, Times times,
+                                          std::vector<ExplainedFault> faults) {
   for (std::size_t k = 0; k < faults.size();) {
     const LogFit fit(log, model, claims_but(faults, k, before), noise);
     LogExplanation e = explain_log(fit);
     JudgedHypotheses own{fit, {}};
-    if (const FaultHypothesis* first = own.go(faults[k].claim)) refine(FaultHypothesis(*first), own);
+    double gain = 0.0;
+    if (const FaultHypothesis* first = own.go(faults[k].claim)) {
+      gain = first->gain;
+      if (times == Times::refined) refine(FaultHypothesis(*first), own);
+    }
     e.best.insert(e.best.end(), own.judged.begin(), own.judged.end());
     e.best = best_of_each(e.best);
-    double gain = 0.0;
-    for (const FaultHypothesis& h : own.judged) gain = std::max(gain, h.gain);
     const std::vector<ExplainedFault> again = named_faults(e, limits, log_evidence(fit, e), 1);
     if (!again.empty() && !has_large_misfit(again[0])) {
       faults[k] = again[0];
@@ -173,10 +179,10 @@ std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& m
   std::stable_sort(faults.begin(), faults.end(),
                    [](const ExplainedFault& a, const ExplainedFault& b) { return a.evidence < b.evidence; });
   const RowNoise noise = LogFit(log, model, claims_but(faults, faults.size(), before)).noise();
-  faults = judged_beside(log, model, limits, before, noise, std::move(faults));
+  faults = judged_beside(log, model, limits, before, noise, Times::as_claimed, std::move(faults));
   const auto poor = std::count_if(faults.begin(), faults.end(), &has_large_misfit);
   if (poor == 0 || poor == static_cast<std::ptrdiff_t>(faults.size())) return faults;
-  return judged_beside(log, model, limits, before, noise, std::move(faults));
+  return judged_beside(log, model, limits, before, noise, Times::refined, std::move(faults));
 }
 
 /// Returns the first of the `most` best named faults that comes and goes and explains the log by this: as a

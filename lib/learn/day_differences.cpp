@@ -75,6 +75,7 @@ struct Widen {
     const DayLayout at = day_layout(m.rigid);
     for (int j = 0; j < m.joints(); ++j) {
       friction(m.day_variance[at.friction(j)]);
+      friction(m.day_variance[at.friction_slope(j)]);
       friction(m.day_variance[at.viscous_excess(j)]);
       offset(m.day_variance[at.offset(j)], j);
       gain(m.day_variance[at.gain(j)]);

@@ -8,6 +8,7 @@
 #include "lib/identify/days/fit_coarse_days.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/robot/robot_file.hpp"
+#include "tests/explain/explained_scara.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 
 namespace faultline {
@@ -47,6 +48,18 @@ TEST(ExplainedRobot, TheTwinIsTheRobotThatItsRunsAreJudgedBy) {
   EXPECT_NEAR(std::sqrt(twin.covariance(0, 0)),
               model.theta[0] * std::sqrt(model.day_variance[model.day_layout().inertia(0)]), 1e-12);
   EXPECT_EQ(twin.covariance(space.viscous(0), space.viscous(0)), 0.0);
+}
+
+TEST(StatedRanges, FrictionMayChangeWithinTheLogAsFarAsFromDayToDay) {
+  const BalanceModel& learned = testing::scara_model();
+  NormalRange stated;
+  stated.friction = 0.6;
+  const auto wide = std::get<BalanceModel>(with_stated_ranges(learned, stated, {1.0, 1.0, 1.0}));
+  const DayLayout day = day_layout(learned.rigid);
+  for (int j = 0; j < 3; ++j)
+    for (const int effect : {day.friction(j), day.friction_slope(j), day.viscous_excess(j)})
+      EXPECT_NEAR(std::sqrt(wide.day_variance[effect]), 0.3, 1e-12) << effect;
+  EXPECT_EQ(wide.day_variance[day.gain(0)], learned.day_variance[day.gain(0)]);
 }
 
 }  // namespace
