@@ -276,16 +276,6 @@ TEST(ExplainLog, AHaltThatShakesTheOtherJointsIsOneLock) {
   EXPECT_NEAR(log.faults[0].claim.onset_s, 4.0, 0.05);
 }
 
-TEST(ExplainLog, ALockThatYieldsToTheTorqueIsALock) {
-  Log log = with_lock(24);
-  const auto locked = static_cast<std::size_t>(
-      std::ranges::find_if(log.time, [](double t) { return t >= 4.0; }) - log.time.begin());
-  for (std::size_t k = locked; k < log.time.size(); ++k) log.q[1][k] += 2e-5 * log.tau[1][k];
-  const auto fault = decided(fit_of(std::move(log)));
-  ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::locked, 2}));
-}
-
 TEST(ExplainLog, AnEncoderThatReadsAVelocityAnewIsNotStuck) {
   Log log = with_lock(24);
   for (int k = 1001; k < log.rows(); ++k) log.q[1][k] = log.q[1][1000];  // too coarse to show any noise
