@@ -58,8 +58,9 @@ std::unique_ptr<LogSource> LogHandle::open(const Robot& robot) const {
   return robot_log_of(open_columns(robot.log.recording), robot, parts_.run);
 }
 
-std::unique_ptr<LogSource> LogHandle::open(const Robot& robot, ProgressRelay& watch, bool tells) const {
-  return interruptible(open(robot), watch, tells);
+std::unique_ptr<LogSource> LogHandle::open(const Robot& robot, ProgressRelay& watch,
+                                           bool reports_progress) const {
+  return interruptible(open(robot), watch, reports_progress);
 }
 
 std::optional<Robot> robot_named(const std::string& robot) {

@@ -34,8 +34,9 @@ class LogHandle {
   std::unique_ptr<RawReader> open_columns(const RecordingChoice& choice = {}) const;
   /// Opens a log of this robot, see open_robot_log().
   std::unique_ptr<LogSource> open(const Robot& robot) const;
-  /// Does the same, but ends with the work and does not read ahead; reports the progress if `tells` is set.
-  std::unique_ptr<LogSource> open(const Robot& robot, ProgressRelay& watch, bool tells) const;
+  /// Does the same, but ends with the work and does not read ahead; reports the progress if
+  /// `reports_progress` is set.
+  std::unique_ptr<LogSource> open(const Robot& robot, ProgressRelay& watch, bool reports_progress) const;
 
  private:
   std::string name_;

@@ -22,14 +22,14 @@ void serve(const py::object& progress, ProgressRelay& watch) {
 
 class InterruptibleSource : public LogSource {
  public:
-  InterruptibleSource(std::unique_ptr<LogSource> log, ProgressRelay& watch, bool tells)
-      : log_(std::move(log)), watch_(watch), tells_(tells) {}
+  InterruptibleSource(std::unique_ptr<LogSource> log, ProgressRelay& watch, bool reports_progress)
+      : log_(std::move(log)), watch_(watch), reports_progress_(reports_progress) {}
 
   bool next(Log& segment) override {
     watch_.check();
     const bool more = log_->next(segment);
     const double share = log_->share_read();
-    if (tells_ && std::isfinite(share)) watch_.tell("reading " + log_->identity().path, share);
+    if (reports_progress_ && std::isfinite(share)) watch_.tell("reading " + log_->identity().path, share);
     return more;
   }
   void rewind() override { log_->rewind(); }
@@ -40,7 +40,7 @@ class InterruptibleSource : public LogSource {
  private:
   std::unique_ptr<LogSource> log_;
   ProgressRelay& watch_;
-  bool tells_;
+  bool reports_progress_;
 };
 
 }  // namespace
@@ -95,8 +95,9 @@ void run_with_progress(const py::object& progress, const std::function<void(Prog
   if (of_work) std::rethrow_exception(of_work);
 }
 
-std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, ProgressRelay& watch, bool tells) {
-  return std::make_unique<InterruptibleSource>(std::move(log), watch, tells);
+std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, ProgressRelay& watch,
+                                         bool reports_progress) {
+  return std::make_unique<InterruptibleSource>(std::move(log), watch, reports_progress);
 }
 
 }  // namespace faultline

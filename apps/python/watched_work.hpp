@@ -61,7 +61,9 @@ auto watched(const pybind11::object& progress, Work work) {
   return std::move(*result);
 }
 
-/// Returns a log that ends the work that reads it if requested; reports the share read if `tells` is set.
-std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, ProgressRelay& watch, bool tells);
+/// Returns a log that ends the work that reads it if requested; reports the share read if `reports_progress`
+/// is set.
+std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, ProgressRelay& watch,
+                                         bool reports_progress);
 
 }  // namespace faultline

@@ -17,7 +17,7 @@ struct BatchRow {
   std::string log;           ///< BatchLog::name, as valid UTF-8
   std::string sha256;        ///< empty when the log could not be read
   std::string model;         ///< its name
-  std::string model_sha256;  ///< tells models of one name apart
+  std::string model_sha256;  ///< distinguishes models of one name
   std::string result;   ///< "logs/<result>.json", without folder and extension; empty without a diagnosis
   std::string verdict;  ///< as in the diagnosis, "unusable", or "failed" for a defect of the program
   std::string reason;
@@ -32,7 +32,7 @@ struct BatchRow {
   std::vector<double> residual_rms;        ///< velocity, by joint, 1 = healthy (JointResidual)
   std::vector<double> residual_peak;       ///< likewise
   std::vector<FaultEvent> faults;          ///< by onset
-  std::vector<ParameterValue> condition;   ///< of ConditionItem, those that the log tells
+  std::vector<ParameterValue> condition;   ///< of ConditionItem, those that the log determines
   std::vector<ParameterValue> parameters;  ///< identified from this log alone, when asked for and healthy
 };
 

@@ -124,11 +124,11 @@ struct Spans {
   double log_likelihood = -std::numeric_limits<double>::infinity();
 };
 
-/// Estimates spans and size in turn, from the claim on. `fit_of` returns the fit of a fault in some spans.
+/// Estimates spans and size in turn, from the claim on. `white`: whitened columns of the fault, present in
+/// all rows. `fit_of` returns the fit of a fault in some spans.
 template <typename FitOf>
 Spans settled_spans(const LogFit& fit, const FaultClaim& claim, const LinearFault& fault,
-                    const FitOf& fit_of) {
-  const StackedColumns white = fit.whitened(fault.columns.column);
+                    const StackedColumns& white, const FitOf& fit_of) {
   const int first = std::max(1, fit.first_row(fit.time_s()[0] + kLead_s));
   std::vector<Span> spans = {{claim.onset_s, claim.end_s}};
   for (int round = 0; round < kRounds; ++round) {
@@ -154,8 +154,9 @@ std::vector<FaultClaim> fault_spans(const LogFit& fit, const FaultClaim& claim, 
   const auto with_day_before = [&](const auto& spans) {
     return fit_with_day_before(fit, *fault, spans, change);
   };
-  const Spans own = settled_spans(fit, claim, *fault, with_day),
-              early = settled_spans(fit, claim, *fault, with_day_before),
+  const StackedColumns white = fit.whitened(fault->columns.column);
+  const Spans own = settled_spans(fit, claim, *fault, white, with_day),
+              early = settled_spans(fit, claim, *fault, white, with_day_before),
               best = early.log_likelihood > own.log_likelihood ? early : own;
   std::vector<FaultClaim> out;
   for (const Span& span : best.spans) {

@@ -6,7 +6,7 @@
 
 namespace faultline {
 
-/// What the log tells of the robot's condition, a row each; no rows where it tells nothing.
+/// Table of the effects of the day that the log determines, one row each; empty if it determines none.
 FactTable condition_table(const Diagnosis& diagnosis);
 
 }  // namespace faultline
