@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lib/neural/normal_equations.hpp"
 #include "lib/neural/training.hpp"
@@ -13,15 +13,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// Adds the weight decay to the diagonal entries that belong to weights.
-void add_weight_decay(MatrixXd& normal, const Mlp& mlp, double weight_decay) {
-  Index at = 0;
-  for (const MlpLayer& layer : mlp.layers) {
-    normal.diagonal().segment(at, layer.weights.size()).array() += weight_decay;
-    at += layer.weights.size() + layer.bias.size();
-  }
-}
 
 /// Damping between Gauss-Newton and gradient descent, adapted to the quadratic model's prediction of a step.
 struct Damping {
@@ -40,16 +31,6 @@ struct Damping {
   }
 };
 
-/// Solves the normal equations for the step; returns false if they are not positive definite.
-bool solve(const MatrixXd& normal, const VectorXd& gradient, double damping, VectorXd& step) {
-  MatrixXd damped = normal;
-  damped.diagonal().array() += damping;
-  Eigen::LLT<Eigen::Ref<MatrixXd>> factor(damped);
-  if (factor.info() != Eigen::Success) return false;
-  step = factor.solve(-gradient);
-  return step.allFinite();
-}
-
 }  // namespace
 
 TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const Patterns& validation,
@@ -57,29 +38,29 @@ TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const 
   TrainingMonitor watch(start,
                         {training, validation, options.stop, progress, "Levenberg-Marquardt training"});
   Mlp mlp = std::move(start);
-  VectorXd weights = parameters_of(mlp), step;
+  VectorXd weights = parameters_of(mlp);
   LossGradient now = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);
   Damping damping;
   for (;;) {
-    MatrixXd normal = gauss_newton_matrix(mlp, training.inputs);
-    add_weight_decay(normal, mlp, options.weight_decay);
-    if (damping.value == 0.0) damping.value = options.initial_damping * normal.diagonal().mean();
+    const GaussNewtonSystem system(mlp, training.inputs, options.weight_decay);
+    if (damping.value == 0.0) damping.value = options.initial_damping * system.mean_diagonal();
     if (now.gradient.norm() < 1e-13) return watch.finish(std::move(mlp), TrainingStop::converged);
     for (int tries = 0;; ++tries) {
       if (tries == 30) {
         set_parameters(mlp, weights);
         return watch.finish(std::move(mlp), TrainingStop::no_descent);
       }
-      if (!solve(normal, now.gradient, damping.value, step)) {
+      const std::optional<VectorXd> step = system.step(now.gradient, damping.value);
+      if (!step) {
         damping.reject();
         continue;
       }
-      set_parameters(mlp, weights + step);
+      set_parameters(mlp, weights + *step);
       LossGradient next = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);
-      const double promised = 0.5 * step.dot(damping.value * step - now.gradient);
+      const double promised = 0.5 * step->dot(damping.value * *step - now.gradient);
       if (next.loss < now.loss) {
         damping.accept((now.loss - next.loss) / promised);
-        weights += step;
+        weights += *step;
         now = std::move(next);
         break;
       }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lib/neural/normal_equations.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "lib/core/elementary/elementary.hpp"
@@ -70,12 +72,19 @@ MatrixXd jacobian_columns(const Mlp& mlp, const std::vector<MatrixXd>& values, M
   return columns;
 }
 
-/// One hidden layer, linear outputs. With z_(i,k) = (1 - h_k^2) x_i and x, h extended by 1 for the biases, J
-/// has W2(o,k) z_(i,k) for the first layer and h_k for output o's own weights, so one Gram matrix of [z; h]
-/// serves all outputs.
-MatrixXd two_layer_matrix(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
-  const MatrixXd& w2 = mlp.layers[1].weights;
-  const Index hidden = w2.cols(), outputs = w2.rows(), ins = inputs.rows() + 1, first = hidden * ins;
+/// Adds the weight decay to the diagonal entries that belong to weights.
+void add_weight_decay(MatrixXd& normal, const Mlp& mlp, double weight_decay) {
+  Index at = 0;
+  for (const MlpLayer& layer : mlp.layers) {
+    normal.diagonal().segment(at, layer.weights.size()).array() += weight_decay;
+    at += layer.weights.size() + layer.bias.size();
+  }
+}
+
+/// With z_(i,k) = (1 - h_k^2) x_i and x, h extended by 1 for the biases, J has W2(o,k) z_(i,k) for the first
+/// layer and h_k for output o's own weights, so one Gram matrix of [z; h] serves all outputs.
+TwoLayerBlocks two_layer_blocks(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
+  const Index hidden = mlp.layers[1].weights.cols(), ins = inputs.rows() + 1, first = hidden * ins;
   const Index padded = (first + hidden + kGramPanel) / kGramPanel * kGramPanel;
   MatrixXd gram = MatrixXd::Zero(padded, padded);
   Mlp front{{mlp.layers[0]}, OutputKind::linear};
@@ -95,28 +104,72 @@ MatrixXd two_layer_matrix(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inpu
     add_gram(features, gram);
   }
   gram /= static_cast<double>(inputs.cols());
+  return {gram.topLeftCorner(first, first), gram.block(first, 0, hidden + 1, first),
+          gram.block(first, first, hidden + 1, hidden + 1), mlp.layers[1].weights};
+}
 
-  MatrixXd normal = MatrixXd::Zero(mlp.parameters(), mlp.parameters());
-  const MatrixXd mix = w2.transpose() * w2;
-  for (Index column = 0; column < ins; ++column)
-    for (Index row = column; row < ins; ++row)
-      normal.block(row * hidden, column * hidden, hidden, hidden) =
-          gram.block(row * hidden, column * hidden, hidden, hidden).cwiseProduct(mix);
-  for (Index k = 0; k <= hidden; ++k)
-    for (Index o = 0; o < outputs; ++o) {
-      const Index row = first + k * outputs + o;
-      for (Index i = 0; i < ins; ++i)
-        normal.row(row).segment(i * hidden, hidden) =
-            gram.row(first + k).segment(i * hidden, hidden).cwiseProduct(w2.row(o));
-      for (Index other = 0; other <= k; ++other)
-        normal(row, first + other * outputs + o) = gram(first + k, first + other);
-    }
-  return normal;
+/// Multiplies the columns of the coupling, or a vector of the first layer, by the weights of output `o`.
+VectorXd weighted(const TwoLayerBlocks& blocks, Index o, const VectorXd& front) {
+  const Index hidden = blocks.mix.cols();
+  VectorXd out(front.size());
+  for (Index at = 0; at < front.size(); at += hidden)
+    out.segment(at, hidden) = front.segment(at, hidden).cwiseProduct(blocks.mix.row(o).transpose());
+  return out;
+}
+
+/// The matrix of the first layer without that of the outputs: (G - C^T own^-1 C) * (W2^T W2) by hidden units.
+MatrixXd front_alone(const TwoLayerBlocks& blocks, const MatrixXd& root_coupling) {
+  const Index hidden = blocks.mix.cols();
+  const MatrixXd mix = blocks.mix.transpose() * blocks.mix;
+  MatrixXd out = blocks.front;
+  out.selfadjointView<Eigen::Lower>().rankUpdate(root_coupling.transpose(), -1.0);
+  for (Index column = 0; column < out.cols(); column += hidden)
+    for (Index row = column; row < out.rows(); row += hidden)
+      out.block(row, column, hidden, hidden).array() *= mix.array();
+  return out;
+}
+
+using LowerCholesky = Eigen::LLT<MatrixXd, Eigen::Lower>;
+
+std::optional<VectorXd> solved(const MatrixXd& matrix, const VectorXd& gradient, double damping) {
+  MatrixXd damped = matrix;
+  damped.diagonal().array() += damping;
+  const LowerCholesky factor(damped);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  VectorXd step = factor.solve(-gradient);
+  return step.allFinite() ? std::optional(std::move(step)) : std::nullopt;
+}
+
+/// Eliminates the weights of the outputs, each of which has the same block, and solves for the first layer.
+std::optional<VectorXd> solved(const TwoLayerBlocks& blocks, double weight_decay, const VectorXd& gradient,
+                               double damping) {
+  const Index hidden = blocks.mix.cols(), outputs = blocks.mix.rows(), first = blocks.front.rows();
+  MatrixXd own = blocks.own;
+  own.diagonal().array() += damping;
+  own.diagonal().head(hidden).array() += weight_decay;
+  const LowerCholesky factor(own);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const Eigen::Map<const MatrixXd> tail(gradient.data() + first, outputs, hidden + 1);
+  const MatrixXd solved_tail = factor.solve(tail.transpose());  // hidden units and 1 x outputs
+  MatrixXd front = front_alone(blocks, factor.matrixL().solve(blocks.coupling));
+  front.diagonal().head(first - hidden).array() += weight_decay;
+  VectorXd head = gradient.head(first);
+  for (Index o = 0; o < outputs; ++o)
+    head -= weighted(blocks, o, blocks.coupling.transpose() * solved_tail.col(o));
+  const std::optional<VectorXd> first_layer = solved(front, head, damping);
+  if (!first_layer) return std::nullopt;
+  VectorXd step(gradient.size());
+  step.head(first) = *first_layer;
+  Eigen::Map<MatrixXd> out(step.data() + first, outputs, hidden + 1);
+  for (Index o = 0; o < outputs; ++o)
+    out.row(o) = -solved_tail.col(o).transpose() -
+                 factor.solve(blocks.coupling * weighted(blocks, o, *first_layer)).transpose();
+  return step.allFinite() ? std::optional(std::move(step)) : std::nullopt;
 }
 
 }  // namespace
 
-MatrixXd dense_gauss_newton_matrix(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
+MatrixXd gauss_newton_matrix(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
   MatrixXd normal = MatrixXd::Zero(mlp.parameters(), mlp.parameters());
   for (Index at = 0; at < inputs.cols(); at += kChunk) {
     const auto values = layer_inputs(mlp, inputs.middleCols(at, std::min(kChunk, inputs.cols() - at)));
@@ -127,9 +180,33 @@ MatrixXd dense_gauss_newton_matrix(const Mlp& mlp, const Eigen::Ref<const Matrix
   return normal / static_cast<double>(inputs.cols());
 }
 
-MatrixXd gauss_newton_matrix(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
-  const bool two_layers = mlp.layers.size() == 2 && mlp.output == OutputKind::linear;
-  return two_layers ? two_layer_matrix(mlp, inputs) : dense_gauss_newton_matrix(mlp, inputs);
+GaussNewtonSystem::GaussNewtonSystem(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs,
+                                     double weight_decay)
+    : weight_decay_(weight_decay) {
+  if (mlp.layers.size() == 2 && mlp.output == OutputKind::linear) {
+    matrix_ = two_layer_blocks(mlp, inputs);
+    return;
+  }
+  MatrixXd matrix = gauss_newton_matrix(mlp, inputs);
+  add_weight_decay(matrix, mlp, weight_decay);
+  matrix_ = std::move(matrix);
+}
+
+double GaussNewtonSystem::mean_diagonal() const {
+  if (const auto* matrix = std::get_if<MatrixXd>(&matrix_)) return matrix->diagonal().mean();
+  const auto& blocks = std::get<TwoLayerBlocks>(matrix_);
+  const Index hidden = blocks.mix.cols(), outputs = blocks.mix.rows(), first = blocks.front.rows(),
+              own = outputs * (hidden + 1);
+  const VectorXd power = blocks.mix.colwise().squaredNorm().transpose();
+  double sum = static_cast<double>(outputs) * blocks.own.trace() +
+               weight_decay_ * static_cast<double>(first - hidden + outputs * hidden);
+  for (Index at = 0; at < first; at += hidden) sum += blocks.front.diagonal().segment(at, hidden).dot(power);
+  return sum / static_cast<double>(first + own);
+}
+
+std::optional<VectorXd> GaussNewtonSystem::step(const VectorXd& gradient, double damping) const {
+  if (const auto* matrix = std::get_if<MatrixXd>(&matrix_)) return solved(*matrix, gradient, damping);
+  return solved(std::get<TwoLayerBlocks>(matrix_), weight_decay_, gradient, damping);
 }
 
 }  // namespace faultline
