@@ -83,6 +83,13 @@ MatrixXd whiten(const MatrixXd& columns, const VectorXd& std, const JointNoise& 
   return out;
 }
 
+int filter_order(const RowNoise& noise) {
+  int order = 0;
+  for (const JointNoise& joint : noise.joint)
+    order = std::max(order, static_cast<int>(joint.filter.size()) - 1);
+  return order;
+}
+
 RowNoise with_variance(const std::vector<LogResidual>& logs, const RowSetting& setting, RowNoise noise) {
   const int joints = setting.joints();
   noise.joint.resize(joints);

@@ -35,6 +35,9 @@ Eigen::MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, cons
 /// their standard deviation `std`, then filters them.
 Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns, const Eigen::VectorXd& std, const JointNoise& noise);
 
+/// Returns the largest number of rows before a row that its whitened value contains.
+int filter_order(const RowNoise& noise);
+
 /// Residuals of one healthy log and the rows that they belong to.
 struct LogResidual {
   const BalanceRows* rows = nullptr;

@@ -14,11 +14,11 @@ void RecursiveRegression::add(const Eigen::Ref<const VectorXd>& columns, const s
                               double row) {
   gain_.setZero();
   double predicted = 0.0, variance = 1.0;
-  for (const int a : some) {
-    gain_ += columns[a] * covariance_.col(a);
-    predicted += columns[a] * estimate_[a];
+  for (Eigen::Index i = 0; i < columns.size(); ++i) {
+    gain_ += columns[i] * covariance_.col(some[i]);
+    predicted += columns[i] * estimate_[some[i]];
   }
-  for (const int a : some) variance += columns[a] * gain_[a];
+  for (Eigen::Index i = 0; i < columns.size(); ++i) variance += columns[i] * gain_[some[i]];
   const double innovation = row - predicted;
   square_ += innovation * innovation / variance;
   estimate_ += innovation / variance * gain_;

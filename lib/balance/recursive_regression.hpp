@@ -13,7 +13,7 @@ class RecursiveRegression {
   /// `precision` is the inverse prior variance of each parameter; all are above 0.
   explicit RecursiveRegression(const Eigen::VectorXd& precision);
 
-  /// Adds a whitened row of unit variance. Only those of its columns that `some` lists differ from 0.
+  /// Adds a whitened row of unit variance. `columns` are those of the parameters `some`; the others are 0.
   void add(const Eigen::Ref<const Eigen::VectorXd>& columns, const std::vector<int>& some, double row);
 
   const Eigen::VectorXd& estimate() const { return estimate_; }

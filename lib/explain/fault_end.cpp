@@ -78,8 +78,9 @@ WithAndWithout with_and_without(const LogFit& fit, const KnownFault& fault, doub
   if (fit.healthy().piece_level.size() > 0) torque -= fit.piece_torque(fit.healthy().piece_level);
   WithAndWithout out;
   out.with = fit.whitened(torque);
-  out.without = out.with + fit.white_effects().middleCols(fault.begin, fault.sizes()) *
-                               (fault.claim.size + effects.segment(fault.begin, fault.sizes()));
+  VectorXd sizes = VectorXd::Zero(effects.size());
+  sizes.segment(fault.begin, fault.sizes()) = fault.claim.size + effects.segment(fault.begin, fault.sizes());
+  out.without = out.with + fit.white_effects().times(sizes);
   return out;
 }
 

@@ -49,32 +49,28 @@ Stacked rows_to_explain(const LogFit& fit) {
   return white;
 }
 
-/// Sums of the rows of one joint and of the effects of the day that reach them: they give the cost of
-/// effects.
+/// Sums of the rows of one joint and of the effects that reach them: they give the cost of effects.
 struct JointRows {
   std::vector<int> reach{};  ///< indices of the effects
   NormalEquations sums{};    ///< of those effects
 };
 
 /// Returns the sums of the joints before any row is added.
-std::vector<JointRows> no_rows(const MatrixXd& effects, int joints) {
-  const Eigen::Index rows = effects.cols() / joints;
-  std::vector<JointRows> out(joints);
-  for (int j = 0; j < joints; ++j) {
-    for (int e = 0; e < effects.rows(); ++e)
-      if (!effects.row(e).segment(j * rows, rows).isZero(0.0)) out[j].reach.push_back(e);
-    const auto count = static_cast<Eigen::Index>(out[j].reach.size());
-    out[j].sums = {MatrixXd::Zero(count, count), VectorXd::Zero(count)};
+std::vector<JointRows> no_rows(const EffectColumns& effects) {
+  std::vector<JointRows> out;
+  for (int j = 0; j < effects.joints(); ++j) {
+    const Eigen::Index count = effects.column(j).cols();
+    out.push_back({effects.reach(j), {MatrixXd::Zero(count, count), VectorXd::Zero(count)}});
   }
   return out;
 }
 
-void add_row(const Eigen::Ref<const VectorXd>& effects, double white, JointRows& joint) {
-  const VectorXd some = effects(joint.reach);
-  joint.sums.matrix.noalias() += some * some.transpose();
-  joint.sums.vector += white * some;
-  joint.sums.square += white * white;
-  joint.sums.rows += 1.0;
+/// Adds a row, with the columns of the effects that reach it.
+void add_row(const Eigen::Ref<const VectorXd>& some, double white, NormalEquations& sums) {
+  sums.matrix.noalias() += some * some.transpose();
+  sums.vector += white * some;
+  sums.square += white * white;
+  sums.rows += 1.0;
 }
 
 /// Returns the sum of squared residuals of the rows with these effects of the day.
@@ -104,24 +100,24 @@ enum class ChangeOf { all_joints, some_joints };
 /// joints whose rows would cost more if they were explained as before it.
 Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
   const int rows = fit.count(), n = fit.joints();
-  const MatrixXd effects = fit.white_effects().transpose();  // effects x rows
+  std::vector<MatrixXd> effects;  // by joint, reach x rows
+  for (int j = 0; j < n; ++j) effects.emplace_back(fit.white_effects().column(j).transpose());
   const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
   const auto counts = [&](int k) { return changes.empty() || !changes[k]; };
   const VectorXd precision = fit.effect_variance().cwiseInverse();
-  std::vector<JointRows> all = no_rows(effects, n), before = all;
+  std::vector<JointRows> all = no_rows(fit.white_effects()), before = all;
   RecursiveRegression day(precision);
   if (of == ChangeOf::some_joints)
     for (int k = 0; k < rows; ++k)
-      for (int j = 0; j < n && counts(k); ++j)
-        add_row(effects.col(j * rows + k), white[j * rows + k], all[j]);
+      for (int j = 0; j < n && counts(k); ++j) add_row(effects[j].col(k), white[j * rows + k], all[j].sums);
   const int first = std::max(6, static_cast<int>(kLead_s / fit.model().setting.row_s()));
   double least = std::numeric_limits<double>::infinity();
-  Change best{first, 0.0, VectorXd::Zero(effects.rows())};
+  Change best{first, 0.0, VectorXd::Zero(precision.size())};
   for (int k = 0; k + kTail < rows; ++k) {
     for (int j = 0; j < n && counts(k); ++j) {
       const int row = j * rows + k;
-      day.add(effects.col(row), before[j].reach, white[row]);
-      if (of == ChangeOf::some_joints) add_row(effects.col(row), white[row], before[j]);
+      day.add(effects[j].col(k), before[j].reach, white[row]);
+      if (of == ChangeOf::some_joints) add_row(effects[j].col(k), white[row], before[j].sums);
     }
     if (k < first) continue;
     double cost = 0.5 * day.square() + kFreeRowCost * n * (rows - 1 - k);
@@ -171,7 +167,7 @@ FreeForm free_form(const LogFit& fit) {
   Change change = cheapest_change(fit, white, ChangeOf::all_joints);
   FreeForm out;
   out.onset_s = change.onset_s;
-  out.left = white - fit.white_effects() * change.day;
+  out.left = white - fit.white_effects().times(change.day);
   out.end_s = explained_again_s(fit, out.left, change);
   out.day = std::move(change.day);
   out.row_cost = row_costs(fit, out);

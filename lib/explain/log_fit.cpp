@@ -191,7 +191,7 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
   known_torque_ = Stacked::Zero(residual_.size());
   std_ = row_deviation(rows_, model, noise_level_);
   linear_ = linear_faults(rows_, model);
-  effect_column_ = day_columns(rows_, model);
+  effects_ = EffectColumns(day_columns(rows_, model));
   effect_variance_ = model.day_variance;
   for (const FaultClaim& claim : known_) {
     if (silences(claim.kind)) {
@@ -239,10 +239,8 @@ void LogFit::loosen_halts() {
 }
 
 void LogFit::whiten_effects() {
-  StackedColumns effects(count() * joints(), effect_variance_.size());
-  for (int j = 0; j < joints(); ++j) effects.middleRows(j * count(), count()) = effect_column_[j];
-  effect_white_ = whitened(effects);
-  effect_square_ = effect_white_.transpose() * effect_white_;
+  white_effects_ = effects_.whitened(std_, noise_);
+  effect_square_ = white_effects_.square();
   before_.clear();
 }
 
@@ -262,10 +260,7 @@ void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
   effect_variance_.tail(columns.sizes()) =
       is_compared ? columns.variance
                   : VectorXd((kSizeDoubt * claim.size).cwiseAbs2() + 1e-6 * columns.variance);
-  for (int j = 0; j < joints(); ++j) {
-    effect_column_[j].conservativeResize(Eigen::NoChange, effect_variance_.size());
-    effect_column_[j].rightCols(columns.sizes()) = columns.column.middleRows(j * count(), count());
-  }
+  effects_.append(columns.column);
 }
 
 /// Explains the log without a further fault; path of a work piece and effects are estimated in turn.
@@ -327,11 +322,7 @@ StackedColumns LogFit::whitened(const StackedColumns& columns) const {
 
 Stacked LogFit::whitened(const Stacked& torque) const { return whitened(StackedColumns(torque)).col(0); }
 
-Stacked LogFit::day_torque(const VectorXd& day) const {
-  Stacked out(count() * joints());
-  for (int j = 0; j < joints(); ++j) out.segment(j * count(), count()) = effect_column_[j] * day;
-  return out;
-}
+Stacked LogFit::day_torque(const VectorXd& day) const { return effects_.times(day); }
 
 Stacked LogFit::piece_torque(const VectorXd& level) const {
   return stacked(model_.piece_kg * (tip_.array().colwise() * level.array()).matrix());

@@ -10,6 +10,7 @@
 #include "lib/balance/regress.hpp"
 #include "lib/balance/uniform_log.hpp"
 #include "lib/balance/work_piece.hpp"
+#include "lib/explain/effect_columns.hpp"
 #include "lib/explain/fault_columns.hpp"
 
 namespace faultline {
@@ -72,10 +73,10 @@ class LogFit {
   Stacked residual_of(const MeasuredMotion& moved, int joint, double from_s) const;
   const std::vector<LinearFault>& linear() const { return linear_; }
   /// Columns of the effects of every hypothesis: those of the day (DayLayout), then the sizes of the known
-  /// faults. By joint: rows x effects.
-  const std::vector<Eigen::MatrixXd>& effect_columns() const { return effect_column_; }
-  /// The same, whitened and stacked.
-  const StackedColumns& white_effects() const { return effect_white_; }
+  /// faults.
+  const EffectColumns& effects() const { return effects_; }
+  /// The same, whitened.
+  const EffectColumns& white_effects() const { return white_effects_; }
   const Eigen::VectorXd& effect_variance() const { return effect_variance_; }
   const Explanation& healthy() const { return healthy_; }
   /// Path of the work piece before effects of the day were estimated.
@@ -144,10 +145,9 @@ class LogFit {
   Stacked known_torque_;  ///< of the known faults, with the sizes of their claims
   std::vector<LinearFault> linear_;
   StackedMask silent_;  ///< empty if no row is
-  std::vector<Eigen::MatrixXd> effect_column_;
-  StackedColumns effect_white_;
+  EffectColumns effects_, white_effects_;
   std::vector<Eigen::VectorXd> end_levels_;  ///< of a work piece that changes beside the first or last row
-  Eigen::MatrixXd effect_square_;
+  Eigen::MatrixXd effect_square_;            ///< X' X of the whitened effects
   Eigen::VectorXd effect_variance_;
   PiecePath first_path_;
   Explanation healthy_;

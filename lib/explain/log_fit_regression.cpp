@@ -21,16 +21,6 @@ constexpr int kTimeRounds = 4;       // Newton rounds for the times of the chang
 constexpr double kSettledTime_rows = 0.1;  // rows: a change that moves less is settled
 constexpr double kFarthest_rows = 1.5;     // rows from the middle between the two rows of a change, at most
 
-/// Returns X' X without some rows of X.
-MatrixXd without_rows(MatrixXd square, const StackedColumns& columns, const StackedMask& dropped) {
-  std::vector<int> rows;
-  for (std::size_t i = 0; i < dropped.size(); ++i)
-    if (dropped[i]) rows.push_back(static_cast<int>(i));
-  const MatrixXd lost = columns(rows, Eigen::all);
-  square -= lost.transpose() * lost;
-  return square;
-}
-
 /// Returns X' p of stacked columns X and a pulse p.
 VectorXd along(const WhitePulse& pulse, const Eigen::Ref<const MatrixXd>& columns) {
   VectorXd out = VectorXd::Zero(columns.cols());
@@ -100,8 +90,8 @@ LogFit::Prepared LogFit::prepared(const Stacked& residual, const FaultColumns& c
   const Eigen::Index effects = effect_variance_.size(), sizes = out.column.cols();
   out.square.resize(effects + sizes, effects + sizes);
   out.square.topLeftCorner(effects, effects) =
-      out.lost > 0 ? without_rows(effect_square_, effect_white_, dropped) : effect_square_;
-  out.square.topRightCorner(effects, sizes) = effect_white_.transpose() * out.column;
+      out.lost > 0 ? MatrixXd(effect_square_ - white_effects_.square(dropped)) : effect_square_;
+  out.square.topRightCorner(effects, sizes) = white_effects_.along(out.column);
   out.square.bottomLeftCorner(sizes, effects) = out.square.topRightCorner(effects, sizes).transpose();
   out.square.bottomRightCorner(sizes, sizes) = out.column.transpose() * out.column;
   return out;
@@ -125,7 +115,7 @@ Explanation LogFit::regressed(const Prepared& h, const PieceRamps& ramps) const 
   sums.vector.resize(all);
   sums.square = z.squaredNorm();
   sums.matrix.topLeftCorner(fixed, fixed) = h.square;
-  sums.vector.head(effects) = effect_white_.transpose() * z;
+  sums.vector.head(effects) = white_effects_.along(z);
   sums.vector.segment(effects, sizes) = h.column.transpose() * z;
   VectorXd precision(all);
   precision.head(fixed) << effect_variance_.cwiseInverse(), h.variance.cwiseInverse();
@@ -133,7 +123,7 @@ Explanation LogFit::regressed(const Prepared& h, const PieceRamps& ramps) const 
     const WhitePulse& pulse = pulses[c];
     precision[fixed + c] = 1.0 / pulse.variance;
     sums.vector[fixed + c] = along(pulse, z)[0];
-    sums.matrix.col(fixed + c) << along(pulse, effect_white_), along(pulse, h.column),
+    sums.matrix.col(fixed + c) << white_effects_.along(pulse.torque, pulse.begin), along(pulse, h.column),
         VectorXd::Zero(changes);
     for (int d = 0; d <= c; ++d) sums.matrix(fixed + d, fixed + c) = product(pulse, pulses[d]);
     sums.matrix.row(fixed + c).head(fixed + c) = sums.matrix.col(fixed + c).head(fixed + c).transpose();
@@ -149,7 +139,7 @@ Explanation LogFit::regressed(const Prepared& h, const PieceRamps& ramps) const 
   out.later_s = -fit.estimate.segment(fixed, ramps.change.cols());
   out.log_likelihood =
       fit.log_likelihood - 0.5 * h.lost - kChangeOfPiece * static_cast<double>(ramps.change.cols());
-  out.left = z - effect_white_ * out.day - h.column * out.size;
+  out.left = z - white_effects_.times(out.day) - h.column * out.size;
   for (int c = 0; c < changes; ++c) take_away(pulses[c], fit.estimate[fixed + c], out.left);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (const StackedMask* mask : {&h.dropped, &silent_})
@@ -170,9 +160,7 @@ VectorXd LogFit::known_times_of(const PiecePath& path) const {
 
 std::vector<WhitePulse> LogFit::white_pulses(const PieceRamps& ramps, const StackedMask& dropped) const {
   std::vector<WhitePulse> out;
-  int order = 0;
-  for (const JointNoise& joint : noise_.joint)
-    order = std::max(order, static_cast<int>(joint.filter.size()) - 1);
+  const int order = filter_order(noise_);
   const auto add = [&](const VectorXd& level, double variance) {
     int begin = 0, end = count();
     while (begin < end && level[begin] == 0.0) ++begin;

@@ -65,7 +65,7 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
 /// Returns residuals with the fault and without it, with the effects of the day estimated from the rows
 /// before its onset: if a fault ends and the hypothesis does not, its own effects are biased.
 WithAndWithout by_earlier_effects(const LogFit& fit, const FaultHypothesis& h) {
-  const Stacked shift = fit.white_effects() * (h.fit.day - fit.day_before(h.onset_s));
+  const Stacked shift = fit.white_effects().times(h.fit.day - fit.day_before(h.onset_s));
   return {h.fit.left + shift, fit.residual_without_fault(h.fit) + shift};
 }
 

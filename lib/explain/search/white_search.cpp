@@ -85,15 +85,17 @@ WhiteSearch white_search(const LogFit& fit) {
   for (int j = 0; j < fit.joints(); ++j) {
     auto weight = out.weight.segment(j * rows, rows);
     weight = fit.std().col(j).cwiseAbs2().cwiseInverse() / autocovariance(fit.noise().joint[j])[0];
-    const MatrixXd& effects = fit.effect_columns()[j];
-    const MatrixXd weighted = weight.asDiagonal() * effects;
-    a += effects.transpose() * weighted;
-    b += weighted.transpose() * y.segment(j * rows, rows);
+    const MatrixXd& effects = fit.effects().column(j);
+    const std::vector<int>& reach = fit.effects().reach(j);
+    const MatrixXd weighted = weight.asDiagonal() * effects, square = effects.transpose() * weighted;
+    const VectorXd product = weighted.transpose() * y.segment(j * rows, rows);
+    a(reach, reach) += square;
+    b(reach) += product;
   }
   const Eigen::LLT<MatrixXd> factor(a);
   out.left = y - fit.day_torque(factor.solve(b));
   for (int j = 0; j < fit.joints(); ++j)
-    out.effects.push_back(factor.matrixL().solve(fit.effect_columns()[j].transpose()));
+    out.effects.push_back(factor.matrixL().solve(fit.effects().all(j).transpose()));
   return out;
 }
 
