@@ -250,9 +250,9 @@ double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& 
                      torque.unaryExpr([](double f) { return std::isnan(f) ? 0.0 : f * f; }).rowwise().sum(),
                  edges = fault_edges(fit.rows(), fit.model().setting, h);
   const double edge_s = reach_s(fit.model().setting), from_s = std::min(h.onset_s, change.onset_s) - edge_s;
-  const auto lasts = [&](int k) {
-    return fit.time_s()[k] > h.onset_s - edge_s && fit.time_s()[k] < h.end_s + edge_s;
-  };
+  // A whitened row contains the torque of some rows before it, too.
+  const double until_s = h.end_s + edge_s + (1.0 + filter_order(fit.noise())) * fit.model().setting.row_s();
+  const auto lasts = [&](int k) { return fit.time_s()[k] > h.onset_s - edge_s && fit.time_s()[k] < until_s; };
   double usual = 0.0, count = 0.0;
   for (int k = 0; k < fit.count(); ++k)
     if (lasts(k)) usual += power[k], count += 1.0;

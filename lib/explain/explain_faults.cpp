@@ -141,6 +141,13 @@ std::vector<FaultClaim> claims_but(const std::vector<ExplainedFault>& faults, st
 /// Onset and end of faults that are judged again.
 enum class Times { as_claimed, refined };
 
+/// Whether `again` may replace a fault that was named before: it suffices, and does not replace a fault of a
+/// known kind that suffices by one of no known kind.
+bool may_replace(const ExplainedFault& again, const ExplainedFault& before) {
+  const bool is_known = before.claim.kind != FaultKind::unknown && !has_large_misfit(before);
+  return !has_large_misfit(again) && !(is_known && again.claim.kind == FaultKind::unknown);
+}
+
 /// Judges each fault again with all others known, in order, and drops it if they explain the log without it.
 std::vector<ExplainedFault> judged_beside(const UniformLog& log, const BalanceModel& model,
                                           const EvidenceLimits& limits, const std::vector<FaultClaim>& before,
@@ -158,7 +165,7 @@ std::vector<ExplainedFault> judged_beside(const UniformLog& log, const BalanceMo
     e.best.insert(e.best.end(), own.judged.begin(), own.judged.end());
     e.best = best_of_each(e.best);
     const std::vector<ExplainedFault> again = named_faults(e, limits, log_evidence(fit, e), 1);
-    if (!again.empty() && !has_large_misfit(again[0])) {
+    if (!again.empty() && may_replace(again[0], faults[k])) {
       faults[k] = again[0];
     } else if (gain <= limits.of(faults[k].claim.kind)) {
       faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(k));

@@ -10,6 +10,7 @@
 #include "lib/classify/episode_features.hpp"
 #include "lib/explain/decide_log.hpp"
 #include "lib/explain/explain_faults.hpp"
+#include "lib/explain/refine.hpp"
 #include "tests/explain/explained_scara.hpp"
 
 namespace faultline {
@@ -299,6 +300,28 @@ TEST(ExplainLog, APositionOfASlideThatJumpsContradictsItsVelocity) {
 Log with_cogging(Log log) {
   for (int k = 0; k < log.rows(); ++k) log.tau[1][k] += 0.5 * std::sin(60.0 * log.q[1][k]);
   return log;
+}
+
+/// The wrong torque of a sensor is not constant, so that its column leaves a part of it in each row.
+TEST(Misfit, DoesNotDependOnWhichSideOfARowAFaultEnds) {
+  constexpr double kEnd_s = 3.4;
+  const LogFit fit =
+      fit_of(testing::changed(simulate_closed_form(of_day(0), run_of(21)), 3.0, kEnd_s, [](Log& log, int k) {
+        log.tau[1][k] += 6.0 * (1.0 + 0.3 * std::sin(60.0 * log.time[k]));
+      }));
+  const FreeForm change = free_form(fit);
+  const double edge_s = reach_s(fit.model().setting);
+  for (int row = fit.first_row(kEnd_s); row < fit.first_row(kEnd_s + 2.0 * edge_s); ++row) {
+    JudgedHypotheses judged{fit, {}};
+    std::vector<double> nats;
+    for (const double moved_s : {-1e-9, 1e-9}) {
+      const double end_s = fit.time_s()[row] - edge_s + moved_s;
+      const FaultHypothesis* h = judged.go({FaultKind::torque_sensor_error, 2, 3.0, end_s, {}});
+      ASSERT_TRUE(h);
+      nats.push_back(misfit(fit, change, *h));
+    }
+    EXPECT_NEAR(nats[0], nats[1], 150.0) << row;  // thousands if the rows after the end count as noise
+  }
 }
 
 TEST(ExplainLog, AHaltThatLeavesASmallShareOfAGreatDealSuffices) {
