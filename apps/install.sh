@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: MIT
 # Installs the Debian 12 packages that faultline needs and that are missing. Asks nothing; works as root or
 # with sudo; does nothing, quickly and without root, when all are there.
-# Usage: bash apps/install.sh [--tests|--release]     --tests: what only the tests need, too; --release: what
-# only apps/packaging/release.sh needs
+# Usage: bash apps/install.sh [--tests|--checks|--release]     --tests: what only the tests need, too; --checks: the
+# same and the second compiler, clang-tidy and the fuzzer of the CI; --release: what only apps/packaging/release.sh
+# needs
 set -euo pipefail
 
 case ${1:-} in
-  "" | --tests | --release) ;;
+  "" | --tests | --checks | --release) ;;
   *)
-    echo "install: $1 is unknown; usage: bash apps/install.sh [--tests|--release]" >&2
+    echo "install: $1 is unknown; usage: bash apps/install.sh [--tests|--checks|--release]" >&2
     exit 2
     ;;
 esac
@@ -34,11 +35,16 @@ test_packages=(
   # CI checks the format of the sources
   clang-format
 )
+check_packages=(
+  # the second compiler with its fuzzer, and the linter
+  clang clang-tidy
+)
 release_packages=(
   # Debian packages, that of the Python module and its wheel
   dpkg-dev file git pybind11-dev python3-dev
 )
-[ "${1:-}" = --tests ] && packages+=("${test_packages[@]}" "${release_packages[@]}")
+case ${1:-} in --tests | --checks) packages+=("${test_packages[@]}" "${release_packages[@]}") ;; esac
+[ "${1:-}" = --checks ] && packages+=("${check_packages[@]}")
 [ "${1:-}" = --release ] && packages+=("${release_packages[@]}")
 
 if ! command -v apt-get >/dev/null; then

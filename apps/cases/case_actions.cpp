@@ -157,7 +157,7 @@ CasesAnswer reject_case(const CasesArguments& arguments) {
 
 CasesAnswer delete_case(const CasesArguments& arguments) {
   CaseBase base = read_case_base(arguments.path());
-  const Case deleted = base.at(arguments.id);
+  const Case& deleted = base.at(arguments.id);
   change_case_base(arguments.path(), [&](CaseBase& there) {
     if (content_hash(there.at(deleted.id)) != content_hash(deleted))
       throw Error(ErrorCode::usage, arguments.path(), "was changed meanwhile; show the case again");

@@ -192,7 +192,8 @@ void make_columns(const Header& header, int fields, const CsvLine* row, CsvDiale
     const bool missing = !row || read_cell(row->fields[i], dialect.decimal).kind == CellKind::missing;
     if (name.empty() && i == fields - 1 && missing && fields > 1)
       continue;  // a separator at the end of each row
-    if (name.empty() && dialect.names_in_rows && read_cell(row->fields[i], '.').kind != CellKind::number)
+    if (name.empty() && dialect.names_in_rows && row &&
+        read_cell(row->fields[i], '.').kind != CellKind::number)
       continue;
     const NameAndUnit parts = split_unit(name);
     RawColumn column{name.empty() ? "column" + std::to_string(i + 1) : parts.name, parts.unit};

@@ -102,7 +102,8 @@ void ReceiptGap::tell(Issues& issues) const {
 double seconds_of(std::int64_t nanoseconds) {
   constexpr std::int64_t kExact = std::int64_t{1} << 53, kSecond = 1'000'000'000;
   if (nanoseconds < kExact) return static_cast<double>(nanoseconds) / 1e9;
-  return static_cast<double>(nanoseconds / kSecond) + static_cast<double>(nanoseconds % kSecond) / 1e9;
+  const std::int64_t seconds = nanoseconds / kSecond;
+  return static_cast<double>(seconds) + static_cast<double>(nanoseconds % kSecond) / 1e9;
 }
 
 class JointStateReader : public RawReader {

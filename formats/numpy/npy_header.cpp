@@ -261,7 +261,7 @@ void spread(std::vector<StoredArray>& fields, const Shape& shape, std::int64_t r
 std::optional<NpyJson> header_json(ContentStream& stream, std::int64_t& header_bytes) {
   std::array<char, kMagicBytes + 4> start{};
   if (stream.read(0, start.data(), start.size()) < start.size()) return std::nullopt;
-  const int version = start[6];
+  const int version = static_cast<unsigned char>(start[6]);
   if (std::memcmp(start.data(), kNpyMagic, std::strlen(kNpyMagic)) != 0 || version < 1 || version > 3)
     return std::nullopt;
   const std::size_t length_bytes = version == 1 ? 2 : 4;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/balance/rows.hpp"
 
+#include <Eigen/SparseCore>
+
 #include "lib/balance/regressor.hpp"
 #include "lib/balance/row_frame.hpp"
 #include "lib/balance/smoothing.hpp"
@@ -18,7 +20,10 @@ using Eigen::VectorXd;
 /// Momentum and force (FastDynamics::momentum_and_force()) by base parameter, with it 1 and all others 0.
 class BaseMotion {
  public:
-  explicit BaseMotion(const RigidColumns& rigid) : rigid_(rigid), units_(unit_dynamics(rigid)) {}
+  explicit BaseMotion(const RigidColumns& rigid)
+      : rigid_(rigid),
+        units_(unit_dynamics(rigid)),
+        lift_(rigid.lift.topRows(rigid.joints() * kLinkParameters).sparseView()) {}
 
   /// Writes both, joints x base each.
   void at(const JointVector& q, const JointVector& dq, MatrixXd& momentum, MatrixXd& force) {
@@ -37,14 +42,15 @@ class BaseMotion {
     const LinkFrames frames = link_frames(rigid_.chain, q);
     momentum_regressor(frames, dq, link_momentum_);
     force_regressor(frames, dq, link_force_);
-    momentum = link_momentum_ * rigid_.lift.topRows(links);
-    force = link_force_ * rigid_.lift.topRows(links);
+    momentum = link_momentum_ * lift_;
+    force = link_force_ * lift_;
     for (int j = 0; j < n; ++j) momentum.row(j) += dq[j] * rigid_.lift.row(links + j);
   }
 
  private:
   const RigidColumns& rigid_;
-  std::vector<FastDynamics> units_;  ///< by base parameter; parallel axes only
+  std::vector<FastDynamics> units_;   ///< by base parameter; parallel axes only
+  Eigen::SparseMatrix<double> lift_;  ///< of the link parameters: most entries are 0
   LinkRegressor link_momentum_, link_force_;
 };
 

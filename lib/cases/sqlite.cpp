@@ -70,8 +70,8 @@ std::vector<std::string> sqlite_files(const std::string& path) {
   return {path, path + "-journal", path + "-wal", path + "-shm"};
 }
 
-SqliteFile::SqliteFile(std::string path, SqliteMode mode, std::string name)
-    : name_(name.empty() ? path : std::move(name)), mode_(mode) {
+SqliteFile::SqliteFile(const std::string& path, SqliteMode mode, const std::string& name)
+    : name_(name.empty() ? path : name), mode_(mode) {
   const int code = sqlite3_open_v2(path.c_str(), &db_, open_flags(mode), nullptr);
   if (code != SQLITE_OK) {
     sqlite3_close(db_);

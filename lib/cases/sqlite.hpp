@@ -24,7 +24,7 @@ enum class SqliteMode { read_only, change, create };
 class SqliteFile {
  public:
   /// `name` stands in messages; empty: the path. The path ":memory:" is a new database without a file.
-  SqliteFile(std::string path, SqliteMode mode, std::string name = "");
+  SqliteFile(const std::string& path, SqliteMode mode, const std::string& name = "");
   ~SqliteFile();
   SqliteFile(const SqliteFile&) = delete;
   SqliteFile& operator=(const SqliteFile&) = delete;

@@ -26,7 +26,7 @@ struct Channel {
   Quantity quantity = Quantity::time;
   int joint = 0;
 
-  auto operator<=>(const Channel&) const = default;
+  auto operator<=>(const Channel&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// Returns the canonical name: "t", "q1", "dq2", "tau3", "q_ref1", "dq_ref1", "tau_ref1", "tau_meas1".

@@ -36,8 +36,8 @@ void pull_neighbours(SelfOrganisingMap& map, const Eigen::Ref<const Eigen::Vecto
 }  // namespace
 
 double SelfOrganisingMap::grid_distance2(int a, int b) const {
-  const double row = a / columns - b / columns, column = a % columns - b % columns;
-  return row * row + column * column;
+  const int row = a / columns - b / columns, column = a % columns - b % columns;
+  return static_cast<double>(row * row + column * column);
 }
 
 int nearest_node(const SelfOrganisingMap& map, const Eigen::Ref<const Eigen::VectorXd>& input) {

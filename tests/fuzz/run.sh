@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Fuzzes every reader of files from outside with libFuzzer under the address and undefined-behaviour sanitizers.
-# Needs clang++ (Debian package clang). What it finds goes to build/fuzz/found/TARGET; make it a seed in
+# Needs clang++ (bash apps/install.sh --checks). What it finds goes to build/fuzz/found/TARGET; make it a seed in
 # tests/fuzz/seeds/TARGET, which the ordinary tests feed to every reader.
 # Usage: bash tests/fuzz/run.sh [SECONDS [TARGET...]]     SECONDS a target, 30 by default; all targets by default
 set -euo pipefail
@@ -13,7 +13,7 @@ all=(csv flog mcap rosbag1 rosbag2 packed npy npz h5 mat robot spec golden label
 targets=("${@:-${all[@]}}")
 
 if ! command -v clang++ >/dev/null; then
-  echo "fuzz: clang++ is not installed; apt-get install clang" >&2
+  echo "fuzz: clang++ is not installed; install it (bash apps/install.sh --checks)" >&2
   exit 2
 fi
 cmake --preset fuzz >/dev/null
