@@ -50,21 +50,21 @@ Case new_case(const CasesArguments& arguments, const CaseBase& base) {
   return c;
 }
 
-void change(std::string& there, const std::string& told, const char* what,
+void change(std::string& there, const std::string& stated, const char* what,
             std::vector<std::string>& changes) {
-  if (told.empty() || there == told) return;
-  there = told;
+  if (stated.empty() || there == stated) return;
+  there = stated;
   changes.push_back(what);
 }
 
 /// An existing case of the same event, with the new statements about it.
-struct Retold {
+struct Restated {
   Case revised;
   std::vector<std::string> changes;  ///< empty: nothing new
 };
 
-Retold retold(const Case& there, const Case& c, const CasesArguments& arguments) {
-  Retold out{there, {}};
+Restated restated(const Case& there, const Case& c, const CasesArguments& arguments) {
+  Restated out{there, {}};
   Case& revised = out.revised;
   if (c.outcome == CaseOutcome::confirmed &&
       (there.outcome != CaseOutcome::confirmed || there.label != c.label)) {
@@ -91,14 +91,14 @@ struct Added {
 Added add_to(CaseBase& base, const CasesArguments& arguments) {
   const Case c = new_case(arguments, base);
   if (const Case* there = find_same_event(base, c)) {
-    const Retold told = retold(*there, c, arguments);
+    const Restated found = restated(*there, c, arguments);
     const std::string which =
         fmt::format("this event is already case {} (the same log, onset and fault)", there->id);
-    if (told.changes.empty()) return {there->id, which + "; nothing was changed", false};
-    base.replace(told.revised);
+    if (found.changes.empty()) return {there->id, which + "; nothing was changed", false};
+    base.replace(found.revised);
     std::string list;
-    for (const std::string& what : told.changes) list += (list.empty() ? "" : ", ") + what;
-    return {told.revised.id, which + "; changed: " + list, true};
+    for (const std::string& what : found.changes) list += (list.empty() ? "" : ", ") + what;
+    return {found.revised.id, which + "; changed: " + list, true};
   }
   const bool by_hand = c.origin == kByHandOrigin;
   return {base.retain(c),

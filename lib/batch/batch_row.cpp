@@ -50,7 +50,7 @@ BatchRow row_of(const Diagnosis& d) {
   }
   row.faults = events_of(d.faults);
   for (const ConditionItem& item : d.condition)
-    if (item.is_told())
+    if (item.is_determined())
       row.condition.push_back({item.name, item.value, (item.ci95[1] - item.value) / kNormal95, item.unit});
   return row;
 }

@@ -81,9 +81,9 @@ bool is_of_field(const Case& c) { return c.origin != kSimulatedOrigin && c.origi
 CaseOrigin origin_of(const Case& c) {
   if (c.origin == kSimulatedOrigin) return CaseOrigin::simulated;
   if (c.origin == kLabelledOrigin) return CaseOrigin::labelled;
-  const bool is_told = c.outcome == CaseOutcome::confirmed ||
-                       (c.outcome == CaseOutcome::rejected && c.label.kind != FaultKind::unknown);
-  return is_told ? CaseOrigin::field : CaseOrigin::diagnosed;
+  const bool is_from_a_person = c.outcome == CaseOutcome::confirmed ||
+                                (c.outcome == CaseOutcome::rejected && c.label.kind != FaultKind::unknown);
+  return is_from_a_person ? CaseOrigin::field : CaseOrigin::diagnosed;
 }
 
 std::string log_name_of(const Case& c) {

@@ -7,7 +7,7 @@
 
 namespace faultline {
 
-Error::Error(ErrorCode code, std::string where, std::string message)
+Error::Error(ErrorCode code, std::string where, const std::string& message)
     : std::runtime_error(brief(where.empty() ? message : where + ": " + message)),
       code_(code),
       where_(std::move(where)),

@@ -17,7 +17,7 @@ enum class ErrorCode {
 /// tau2"); `message` states what was found, what was expected and what to do.
 class Error : public std::runtime_error {
  public:
-  Error(ErrorCode code, std::string where, std::string message);
+  Error(ErrorCode code, std::string where, const std::string& message);
 
   ErrorCode code() const { return code_; }
   const std::string& where() const { return where_; }

@@ -30,6 +30,7 @@ ConditionItem item_of(const DayEffect& effect, const Chain& chain) {
   const bool turns = chain.geometry[effect.joint - 1].kind == AxisKind::revolute;
   ConditionItem item;
   item.joint = effect.joint;
+  item.kind = effect.kind;
   item.name = fmt::format("{}_{}", to_string(effect.kind), item.joint);
   item.what = fmt::format("{} of joint {}", words_of(effect.kind), item.joint);
   item.unit = is_share ? "%" : turns ? "N m" : "N";

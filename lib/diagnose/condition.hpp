@@ -20,9 +20,10 @@ struct ConditionItem {
   std::array<double, 2> ci95 = {value, value};
   double normal_range = std::numeric_limits<double>::quiet_NaN();  ///< healthy days lie within +- this
   std::string unit;  ///< "%", "N m" or "N", of all numbers above
+  DayEffectKind kind = DayEffectKind::friction;
 
   /// Whether the log determines the value better than the normal range does: its interval is narrower.
-  bool is_told() const { return 0.5 * (ci95[1] - ci95[0]) < normal_range; }
+  bool is_determined() const { return 0.5 * (ci95[1] - ci95[0]) < normal_range; }
   /// Whether the whole interval lies outside `ranges` times the normal range.
   bool is_beyond(double ranges = 1.0) const {
     return ci95[0] > ranges * normal_range || ci95[1] < -ranges * normal_range;

@@ -70,11 +70,10 @@ std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) 
 }
 
 void note_mismatch(const LogMismatch& doubt, Issues& issues) {
-  const bool is_of_columns = doubt.cure.ends_with("[log.columns]");
   issues.add(make_issue(
       kMisreadLog, Severity::severe,
       fmt::format("the log does not match this model; it looks as if {}; {}{}", doubt.what, doubt.cure,
-                  is_of_columns
+                  doubt.is_entry_of_columns
                       ? " of a robot file for this log and convert it: faultline convert LOG OUT --robot"
                       : "")));
 }

@@ -31,8 +31,8 @@ Comparing comparing(const DecisionBasis& basis, const CaseBase& cases, const Mod
   return {basis, cases, model, usual_features(cases), std::move(list)};
 }
 
-std::vector<PrecedentFeature> told(const std::vector<FeatureMatch>& matches, const Case& c,
-                                   const Comparing& by) {
+std::vector<PrecedentFeature> as_precedents(const std::vector<FeatureMatch>& matches, const Case& c,
+                                            const Comparing& by) {
   std::vector<PrecedentFeature> out;
   if (by.list.empty()) return out;
   for (const FeatureMatch& match : matches) {
@@ -64,8 +64,8 @@ Precedent precedent_of(const Neighbour& neighbour, bool voted, const Comparing& 
           .person = c.person,
           .date = c.date,
           .voted = voted,
-          .alike = told(found.alike, c, by),
-          .unlike = told(found.unlike, c, by)};
+          .alike = as_precedents(found.alike, c, by),
+          .unlike = as_precedents(found.unlike, c, by)};
 }
 
 /// Near cases that were not simulated and did not vote, sorted by origin.

@@ -111,8 +111,8 @@ std::optional<double> absent_from_s(const LogFit& fit, const WithAndWithout& lef
       absent += 0.5 * (with * with - without * without);
       possible += 0.5 * (with - without) * (with - without);
     }
-    const bool is_told = absent > enough && absent > kAbsentShare * possible;
-    if (is_told && fit.time_s()[k] >= since + kLeastStay_s) return since;
+    const bool is_absent = absent > enough && absent > kAbsentShare * possible;
+    if (is_absent && fit.time_s()[k] >= since + kLeastStay_s) return since;
   }
   return std::nullopt;
 }

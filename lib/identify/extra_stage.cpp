@@ -111,10 +111,10 @@ ParameterSpace pruned(const ParameterSpace& space, const std::vector<bool>& stay
   return out;
 }
 
-/// Lists the terms tried, except rejected drives, ripples and gains: these are many.
+/// Lists the terms tried, except rejected candidates: these are many.
 void list_terms(const std::vector<ModelTerm>& tried, std::vector<ModelTerm>& terms) {
   for (const ModelTerm& term : tried)
-    if (term.kept || term.name.starts_with("fl_") || term.name.starts_with("gc_")) terms.push_back(term);
+    if (term.kept || term.kind != TermKind::candidate) terms.push_back(term);
 }
 
 /// Keeps load friction that the robot file gives.

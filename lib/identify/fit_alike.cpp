@@ -140,17 +140,19 @@ void name_outlier_logs(const std::vector<int>& odd, bool kept, Identification& i
 }
 
 /// Searches another interpretation of the columns if the robot explains the logs poorly or is infeasible.
-void search_interpretation(std::span<LogSource* const> logs, const std::vector<int>& still, bool infeasible,
-                           Identification& id) {
+void search_interpretation(std::span<LogSource* const> logs, const std::vector<LogSurvey>& surveys,
+                           const std::vector<int>& still, bool infeasible, Identification& id) {
   bool poor = false;
   for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
     if (std::count(still.begin(), still.end(), static_cast<int>(j) + 1) == 0)
       poor = poor || !(id.fit_r2[j] > kGood);
-  for (int j = 0; j < id.space.joints(); ++j)
-    if (const Issue* issue = id.issues.find(fmt::format("velocity_disagrees_{}", j + 1))) {
-      id.status = IdentificationStatus::unexplained;
-      id.reason += "; " + issue->message;
-    }
+  for (int j = 0; j < id.space.joints(); ++j) {
+    const auto found = std::find_if(surveys.begin(), surveys.end(),
+                                    [j](const LogSurvey& log) { return log.velocity[j].disagrees(); });
+    if (found == surveys.end()) continue;
+    id.status = IdentificationStatus::unexplained;
+    id.reason += "; " + disagreement_text(found->velocity[j], j + 1);
+  }
   if (!poor && !infeasible) return;
   const Reinterpretation found = find_reinterpretation(logs, id.robot);
   if (found.what.empty()) return;
@@ -219,7 +221,7 @@ void settle_terms(const ParameterSpace& space, ModelDraft& draft) {
     return any;
   };
   for (ModelTerm& term : draft.choice.terms) {
-    if (term.name == fmt::format("delay_{}", term.joint + 1)) term.kept = draft.torque.shift[term.joint] != 0;
+    if (term.kind == TermKind::delay) term.kept = draft.torque.shift[term.joint] != 0;
     for (int p = space.extra_begin(); p < space.timing(); ++p)
       if (term.kept && term.name == space.name(p)) term.kept = left(p);
   }
@@ -307,10 +309,11 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   id.condition_number = torque.fit.condition_number;
   judge_fit(torque, draft.choice, gathered, still, undriven, id);
   store_spread(draft.choice, id);
-  search_interpretation(logs, still, id.issues.find("infeasible") != nullptr, id);
+  const bool is_infeasible = !torque.why_infeasible.empty();
+  search_interpretation(logs, gathered.surveys, still, is_infeasible, id);
   if (id.method == IdentifyMethod::weak_form) smooth_friction(draft.nominal, id.space, id.estimate);
   list_base_parameters(torque.fit, {torque.wanted, still, undriven, leaning, has_fast_log(id)}, id);
-  if (id.issues.find("infeasible") != nullptr && id.status == IdentificationStatus::converged) {
+  if (is_infeasible && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
     id.reason += "; the best fit is infeasible: no real robot has these parameters";
   }

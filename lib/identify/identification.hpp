@@ -59,13 +59,18 @@ struct IdentifiedLog {
   bool left_out = false;       ///< excluded: it repeats another log or disagrees with the others
 };
 
+/// What an optional term is: a parameter, one of many candidates (shared drives, ripples, torque gains; those
+/// that are rejected are not listed), or the delay of a torque.
+enum class TermKind { parameter, candidate, delay };
+
 /// An optional term of the model, and its gain on held-out data.
 struct ModelTerm {
   std::string name;  ///< of the parameter, such as "jr2", or "delay_1"
   int joint = 0;     ///< from 0: the joint whose torque judges it
   bool kept = false;
-  double error_before = 0.0;  ///< held-out residual of that joint without it, N m or N rms
-  double error_after = 0.0;   ///< with it
+  double error_before = 0.0;            ///< held-out residual of that joint without it, N m or N rms
+  double error_after = 0.0;             ///< with it
+  TermKind kind = TermKind::parameter;  ///< while the terms are chosen; not part of the JSON
 };
 
 /// Robot identified from healthy logs.

@@ -73,8 +73,8 @@ void drop_insignificant_extra(const ParameterSpace& space, const Eigen::VectorXd
     for (int p = space.extra_begin(); p < space.timing(); ++p) {
       const double value = torque.fit.parameters[p], std = std::sqrt(torque.fit.covariance(p, p));
       if (!torque.wanted[p] || is_ripple(space.extra_at(p).kind)) continue;
-      const double told = std > 0.0 && is_possible(space.extra_at(p).kind, value) ? value / std : 0.0;
-      if (told < least) least = told, worst = p;
+      const double significance = std > 0.0 && is_possible(space.extra_at(p).kind, value) ? value / std : 0.0;
+      if (significance < least) least = significance, worst = p;
     }
     if (worst < 0) return;
     torque.wanted[worst] = false;

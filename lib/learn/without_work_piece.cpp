@@ -59,15 +59,15 @@ std::vector<std::vector<RowRange>> rows_without_work_piece(std::span<LogSource* 
                                                            const FittedDays& days) {
   if (!(days.model.piece_kg > 0.0)) return {};
   std::vector<std::vector<RowRange>> out;
-  std::int64_t all = 0, told = 0;
+  std::int64_t all = 0, without_piece = 0;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     EmptyRows rows = rows_within(*logs[i], empty_times(days.pieces[i]));
     all += rows.all;
-    for (const RowRange& range : rows.empty) told += range.end - range.begin;
+    for (const RowRange& range : rows.empty) without_piece += range.end - range.begin;
     out.push_back(std::move(rows.empty));
   }
-  const bool enough =
-      told >= kFewestRows && static_cast<double>(told) >= kFewestOfAll * static_cast<double>(all);
+  const bool enough = without_piece >= kFewestRows &&
+                      static_cast<double>(without_piece) >= kFewestOfAll * static_cast<double>(all);
   return enough ? out : std::vector<std::vector<RowRange>>{};
 }
 

@@ -155,15 +155,17 @@ void add_gravity(const Chain& chain, std::vector<ColumnInterpretation>& out) {
   for (const Eigen::Vector3d& gravity : tried) {
     if ((gravity - chain.gravity).norm() < kApart) continue;
     const std::string text = fmt::format("[{:g}, {:g}, {:g}]", gravity[0], gravity[1], gravity[2]);
-    out.push_back({fmt::format("gravity is {}", text), fmt::format("gravity = {}", text), [](Log&) {},
+    out.push_back({fmt::format("gravity is {}", text),
+                   fmt::format("write gravity = {} into the robot file", text), [](Log&) {},
                    [gravity](Chain& other) { other.gravity = gravity; }});
   }
 }
 
-std::vector<ColumnInterpretation> with_cures_into(const char* where,
-                                                  std::vector<ColumnInterpretation> readings) {
-  for (ColumnInterpretation& reading : readings)
-    reading.cure = fmt::format("write {} into {}", reading.cure, where);
+std::vector<ColumnInterpretation> with_cures_into_columns(std::vector<ColumnInterpretation> readings) {
+  for (ColumnInterpretation& reading : readings) {
+    reading.cure = fmt::format("write {} into [log.columns]", reading.cure);
+    reading.is_entry_of_columns = true;
+  }
   return readings;
 }
 
@@ -175,7 +177,7 @@ std::vector<ColumnInterpretation> column_interpretations(const Chain& chain) {
   add_torque_units(chain, readings);
   add_signs(chain, readings);
   add_swaps(chain, readings);
-  return with_cures_into("[log.columns]", std::move(readings));
+  return with_cures_into_columns(std::move(readings));
 }
 
 std::vector<ColumnInterpretation> common_interpretations(const Chain& chain) {
@@ -183,13 +185,13 @@ std::vector<ColumnInterpretation> common_interpretations(const Chain& chain) {
   add_common_units(chain, readings);
   add_swapped_joints(chain, readings);
   add_reversed_joints(chain, readings);
-  return with_cures_into("[log.columns]", std::move(readings));
+  return with_cures_into_columns(std::move(readings));
 }
 
 std::vector<ColumnInterpretation> gravity_interpretations(const Chain& chain) {
   std::vector<ColumnInterpretation> readings;
   add_gravity(chain, readings);
-  return with_cures_into("the robot file", std::move(readings));
+  return readings;
 }
 
 }  // namespace faultline

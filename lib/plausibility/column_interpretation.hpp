@@ -16,6 +16,7 @@ struct ColumnInterpretation {
   std::string cure;                                ///< what to write where, as an instruction
   std::function<void(Log&)> apply;                 ///< converts a log to this interpretation
   std::function<void(Chain&)> of_robot = nullptr;  ///< changes the robot; null: not changed
+  bool is_entry_of_columns = false;                ///< the cure is an entry of [log.columns] alone
 };
 
 /// Returns other units, signs and swapped columns of single joints, other units of all angles and the time.

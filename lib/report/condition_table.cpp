@@ -12,7 +12,7 @@ FactTable condition_table(const Diagnosis& diagnosis) {
                   {"what", "difference", "95 % interval", "normal within", ""},
                   {}};
   for (const ConditionItem& item : diagnosis.condition)
-    if (item.is_told())
+    if (item.is_determined())
       table.rows.push_back({item.what, condition_value_text(item.value, item.unit),
                             fmt::format("{} to {}", value_text(item.ci95[0]), value_text(item.ci95[1])),
                             fmt::format("{} {}", digits_text(item.normal_range, 2), item.unit),

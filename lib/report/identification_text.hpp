@@ -16,7 +16,7 @@ std::string identification_text(const Identification& identification);
 /// when there is none, and nothing when there were too few logs to tell.
 std::vector<std::string> trend_lines(const Identification& identification);
 
-/// What the motion does not tell, a line each: what joints lack, parameters that are hardly told from
+/// What the motion does not show, a line each: what joints lack, parameters that are hardly separable from
 /// another.
 std::vector<std::string> excitation_lines(const Identification& identification);
 

@@ -47,8 +47,8 @@ TEST(Condition, IsToldWhereTheLogSaysMoreThanTheNormalRange) {
   const auto items = condition_of({estimate(DayEffectKind::friction, 1, 0.15, 0.0, 0.14),
                                    estimate(DayEffectKind::friction, 2, 0.15, 0.0, 0.16)},
                                   preset_robot("RRP").chain);
-  EXPECT_TRUE(items[0].is_told());
-  EXPECT_FALSE(items[1].is_told());
+  EXPECT_TRUE(items[0].is_determined());
+  EXPECT_FALSE(items[1].is_determined());
 }
 
 }  // namespace

@@ -233,17 +233,16 @@ RobotOfTheDay robot_of_the_day(const Model& model, const std::vector<ConditionIt
   RobotOfTheDay robot{model.robot.chain, std::vector<double>(n, 1.0), std::vector<double>(n, 0.0),
                       model.robot.torque_phi.value_or(0.0)};
   for (const ConditionItem& item : condition) {
-    const auto is = [&](DayEffectKind kind) { return item.name.starts_with(to_string(kind)); };
     const int j = item.joint - 1;
     if (!std::isfinite(item.value)) continue;
-    if (is(DayEffectKind::friction)) {
+    if (item.kind == DayEffectKind::friction) {
       const double scale = std::max(1.0 + item.value / kCurvePercent, kLeastFriction);
       robot.chain.friction[j].viscous *= scale;
       robot.chain.friction[j].coulomb *= scale;
       robot.chain.friction[j].load *= scale;
-    } else if (is(DayEffectKind::torque_gain)) {
+    } else if (item.kind == DayEffectKind::torque_gain) {
       robot.gain[j] += item.value / kCurvePercent;
-    } else if (is(DayEffectKind::torque_offset)) {
+    } else if (item.kind == DayEffectKind::torque_offset) {
       robot.offset[j] += item.value;
     }
   }

@@ -55,6 +55,7 @@ std::vector<ColumnInterpretation> clock_interpretations(double ratio, double sam
       in_ms ? "write unit = \"ms\" for t into [log.columns]"
             : fmt::format("write scale = {:.6g} for t into [log.columns], or correct the clock of the log",
                           1.0 / ratio);
+  reading.is_entry_of_columns = in_ms;
   reading.apply = [ratio](Log& log) {
     for (double& t : log.time) t /= ratio;
   };
@@ -90,7 +91,7 @@ struct Fit {
   std::vector<TorqueRatio> ratio;
 
   int joints() const { return static_cast<int>(misfits.size()); }
-  bool is_told(int j) const { return !misfits[j].empty(); }
+  bool is_determined(int j) const { return !misfits[j].empty(); }
   bool has_motion() const {
     return std::any_of(misfits.begin(), misfits.end(),
                        [](const auto& of_joint) { return !of_joint.empty(); });
@@ -142,9 +143,9 @@ struct Score {
 Score score_of(const Fit& fit) {
   constexpr double kLeast = 1e-2;  // least misfit: below it, all interpretations are right
   Score out;
-  int told = 0;
+  int determined = 0;
   for (int j = 0; j < fit.joints(); ++j) {
-    if (!fit.is_told(j)) continue;
+    if (!fit.is_determined(j)) continue;
     const double apart = fit.velocity_factor[j] == 1.0 ? 0.0 : 2.0 * kNeverNear;
     const double best = std::max(best_misfit(fit.misfits[j]), apart);
     const double usual = std::max(usual_misfit(fit.misfits[j]), apart);
@@ -152,9 +153,9 @@ Score score_of(const Fit& fit) {
     out.usual = std::max(out.usual, usual);
     out.log_mean +=
         0.5 * (elementary::log(std::max(best, kLeast)) + elementary::log(std::max(usual, kLeast)));
-    ++told;
+    ++determined;
   }
-  if (told > 0) out.log_mean /= told;
+  if (determined > 0) out.log_mean /= determined;
   return out;
 }
 
@@ -166,7 +167,7 @@ struct Beginning {
   std::vector<bool> velocity_fits;        // by joint, where it first moved
   bool fitted = false;                    // every joint that moves had moments that fit
 
-  bool is_told(int j) const { return !ever[j].empty(); }
+  bool is_determined(int j) const { return !ever[j].empty(); }
   bool has_every_joint() const {
     return std::none_of(ever.begin(), ever.end(), [](const auto& of_joint) { return of_joint.empty(); });
   }
@@ -175,7 +176,8 @@ struct Beginning {
 void take(const Fit& now, Beginning& beginning) {
   bool any = false, all = true;
   for (int j = 0; j < now.joints(); ++j) {
-    if (!beginning.is_told(j) && now.is_told(j)) beginning.velocity_fits[j] = now.velocity_factor[j] == 1.0;
+    if (!beginning.is_determined(j) && now.is_determined(j))
+      beginning.velocity_fits[j] = now.velocity_factor[j] == 1.0;
     std::vector<double>& ever = beginning.ever[j];
     ever.insert(ever.end(), now.misfits[j].begin(), now.misfits[j].end());
     if (ever.empty()) continue;
@@ -226,7 +228,7 @@ Beginning first_motion(LogSource& log, const KnownRobot& robot) {
 /// Whether an interpretation (`then`) has misfits for all joints for which the plain columns (`now`) have.
 bool covers_joints_of(const Fit& then, const Fit& now) {
   for (int j = 0; j < now.joints(); ++j)
-    if (now.is_told(j) && !then.is_told(j)) return false;
+    if (now.is_determined(j) && !then.is_determined(j)) return false;
   return true;
 }
 
@@ -267,7 +269,7 @@ void try_interpretations(const Beginning& beginning, const KnownRobot& robot,
     if (!covers_joints_of(fit, beginning.fit) || then.worst > kExplains ||
         (usually && then.usual > kReadingFits) || then.log_mean >= best.log_mean)
       continue;
-    best = {{reading.what, reading.cure}, then.log_mean};
+    best = {{reading.what, reading.cure, reading.is_entry_of_columns}, then.log_mean};
   }
 }
 
@@ -275,11 +277,11 @@ void try_interpretations(const Beginning& beginning, const KnownRobot& robot,
 /// else at most joints.
 LogMismatch other_torque(const Fit& fit, bool all) {
   std::vector<std::string> ratios;
-  int told = 0, poor = 0, other = 0;
+  int determined = 0, poor = 0, other = 0;
   for (int j = 0; j < fit.joints(); ++j) {
     const TorqueRatio& torque = fit.ratio[j];
-    if (!fit.is_told(j) || torque.ratio == 0.0) continue;
-    ++told;
+    if (!fit.is_determined(j) || torque.ratio == 0.0) continue;
+    ++determined;
     if (torque.left > kReadingFits || torque.ratio < 0.0) {
       ++poor;
       continue;
@@ -287,18 +289,18 @@ LogMismatch other_torque(const Fit& fit, bool all) {
     other += torque.ratio > kOtherUnit || torque.ratio < 1.0 / kOtherUnit;
     ratios.push_back(fmt::format("tau{} {:.3g}", j + 1, torque.ratio));
   }
-  const bool enough = all ? other == told : poor <= (told > 2 ? 1 : 0) && 2 * other >= told;
+  const bool enough = all ? other == determined : poor <= (determined > 2 ? 1 : 0) && 2 * other >= determined;
   if (!enough || other < std::min(fit.joints(), 2)) return {};
   return {fmt::format("the torques are another quantity or unit, such as a current, or a gear ratio is "
                       "missing: they are {} times the torques that this robot needs for its motion",
                       fmt::join(ratios, ", ")),
-          "write unit or scale (torque of one logged unit) of each tau into [log.columns]"};
+          "write unit or scale (torque of one logged unit) of each tau into [log.columns]", true};
 }
 
 LogMismatch other_velocity(const Fit& fit) {
   std::vector<std::string> factors;
   for (int j = 0; j < fit.joints(); ++j)
-    if (fit.is_told(j) && fit.velocity_factor[j] != 1.0)
+    if (fit.is_determined(j) && fit.velocity_factor[j] != 1.0)
       factors.push_back(
           fmt::format("dq{0} is {1:.4g} times the derivative of q{0}", j + 1, fit.velocity_factor[j]));
   if (factors.empty()) return {};
@@ -310,7 +312,7 @@ LogMismatch other_robot(const Beginning& beginning) {
   std::vector<int> far;
   const int joints = static_cast<int>(beginning.ever.size());
   for (int j = 0; j < joints; ++j)
-    if (beginning.is_told(j) && best_misfit(beginning.ever[j]) > kNeverNear) far.push_back(j + 1);
+    if (beginning.is_determined(j) && best_misfit(beginning.ever[j]) > kNeverNear) far.push_back(j + 1);
   if (far.empty() || static_cast<int>(far.size()) < std::min(joints, 2)) return {};
   return {fmt::format("its torques never match the motion of this robot (joints {}), not even with other "
                       "units, signs or columns: another robot, tool or recording",

@@ -12,7 +12,8 @@ namespace faultline {
 struct LogMismatch {
   std::string
       what;  ///< likely cause as a clause, such as "the angles are in degrees"; empty: no contradiction
-  std::string cure;  ///< what to do, as an instruction
+  std::string cure;                  ///< what to do, as an instruction
+  bool is_entry_of_columns = false;  ///< the cure is an entry of [log.columns] alone
 
   bool is_empty() const { return what.empty(); }
 };

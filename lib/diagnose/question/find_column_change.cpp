@@ -83,11 +83,11 @@ bool explains(const std::vector<double>& reading, const std::vector<double>& pla
   bool better = false, any = false;
   for (std::size_t j = 0; j < reading.size(); ++j) {
     if (!std::isfinite(before[j]) || before[j] > kChangeExplains) continue;
-    const bool told = std::isfinite(reading[j]);
-    if (told && reading[j] > std::min(kChangeExplains, kTimesWorse * before[j])) return false;
-    if (!told && std::isfinite(plain[j])) return false;
-    any = any || told;
-    better = better || (told && (!std::isfinite(plain[j]) || plain[j] > kTimesWorse * reading[j]));
+    const bool is_determined = std::isfinite(reading[j]);
+    if (is_determined && reading[j] > std::min(kChangeExplains, kTimesWorse * before[j])) return false;
+    if (!is_determined && std::isfinite(plain[j])) return false;
+    any = any || is_determined;
+    better = better || (is_determined && (!std::isfinite(plain[j]) || plain[j] > kTimesWorse * reading[j]));
   }
   return any && better;
 }

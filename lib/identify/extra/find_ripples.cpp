@@ -84,7 +84,7 @@ struct Fit {
     if (!(det > 1e-9 * cc * ss)) return Eigen::Vector2d::Zero();
     return {(ss * rc - cs * rs) / det, (cc * rs - cs * rc) / det};
   }
-  double told() const { return solve().dot(Eigen::Vector2d(rc, rs)); }
+  double explained() const { return solve().dot(Eigen::Vector2d(rc, rs)); }
 };
 
 Fit fit_at(const Samples& samples, double rate, const WindowShare& share) {
@@ -113,9 +113,9 @@ std::vector<double> periodogram(const Samples& samples, double first, double ste
       fits[k].add(samples.residual[i], w * wave.real(), w * wave.imag());
     }
   }
-  std::vector<double> told;
-  for (const Fit& fit : fits) told.push_back(fit.told());
-  return told;
+  std::vector<double> power;
+  for (const Fit& fit : fits) power.push_back(fit.explained());
+  return power;
 }
 
 }  // namespace
@@ -131,12 +131,12 @@ std::vector<Ripple> find_ripples(const WeakSets& windows, const WeakChoice& choi
   if (windows.space.chain.geometry[joint].kind == AxisKind::revolute) first = std::max(first, kLeastTurnRate);
   const WindowShare share;
   for (int i = 0; i < kMostRipples; ++i) {
-    std::vector<double> told = periodogram(samples, first, step, share);
-    const auto peak = std::max_element(told.begin(), told.end());
-    const double most = *peak, at = first + step * static_cast<double>(peak - told.begin());
-    if (!(most > kStandsOut * samples.square() && most > kAboveOthers * upper_median_of(told))) break;
+    std::vector<double> power = periodogram(samples, first, step, share);
+    const auto peak = std::max_element(power.begin(), power.end());
+    const double most = *peak, at = first + step * static_cast<double>(peak - power.begin());
+    if (!(most > kStandsOut * samples.square() && most > kAboveOthers * upper_median_of(power))) break;
     const double rate = golden_section(at - step, at + step, kRefinements,
-                                       [&](double r) { return -fit_at(samples, r, share).told(); });
+                                       [&](double r) { return -fit_at(samples, r, share).explained(); });
     const Eigen::Vector2d wave = fit_at(samples, rate, share).solve();
     for (std::size_t k = 0; k < samples.q.size(); ++k) {
       const double w = share(rate * samples.turn[k]), angle = rate * samples.q[k];

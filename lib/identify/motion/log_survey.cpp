@@ -128,8 +128,16 @@ DerivativeAgreement velocity_agreement(const JointMotion& motion) {
   return {dm / dd, dm / std::sqrt(dd * mm)};
 }
 
-/// Returns words such as "dq1 is 57.3 times the derivative of q1: one of them is in degrees".
-std::string words(const DerivativeAgreement& agreement, int joint) {
+std::string channel(int joint) { return fmt::format("tau{}", joint + 1); }
+
+}  // namespace
+
+bool DerivativeAgreement::disagrees() const {
+  return std::abs(correlation) > kAlike &&
+         (factor < 0.0 || std::abs(elementary::log(factor)) > elementary::log(kFactorApart));
+}
+
+std::string disagreement_text(const DerivativeAgreement& agreement, int joint) {
   const double factor = agreement.factor;
   std::string guess = "one of them is in another unit";
   if (is_near(factor, kDegreesPerRadian) || is_near(factor, 1.0 / kDegreesPerRadian))
@@ -140,15 +148,6 @@ std::string words(const DerivativeAgreement& agreement, int joint) {
     guess = is_near(factor, 1.0) ? "one of them has the opposite sign" : guess + " and the opposite sign";
   return fmt::format("dq{0} is {1:.4g} times the derivative of q{0}: {2}; dq{0} was left out", joint, factor,
                      guess);
-}
-
-std::string channel(int joint) { return fmt::format("tau{}", joint + 1); }
-
-}  // namespace
-
-bool DerivativeAgreement::disagrees() const {
-  return std::abs(correlation) > kAlike &&
-         (factor < 0.0 || std::abs(elementary::log(factor)) > elementary::log(kFactorApart));
 }
 
 /// Updates the maximum; minima are kept as maxima of the negated value.
@@ -242,7 +241,7 @@ Issues survey_issues(const LogSurvey& survey) {
   for (std::size_t j = 0; j < survey.velocity.size(); ++j)
     if (survey.velocity[j].disagrees())
       note(fmt::format("velocity_disagrees_{}", j + 1), Severity::severe,
-           words(survey.velocity[j], static_cast<int>(j) + 1));
+           disagreement_text(survey.velocity[j], static_cast<int>(j) + 1));
   std::vector<int> derived;
   for (std::size_t j = 0; j < survey.dq_is_difference.size(); ++j)
     if (survey.dq_is_difference[j]) derived.push_back(static_cast<int>(j) + 1);

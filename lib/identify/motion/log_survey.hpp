@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "lib/core/issue.hpp"
@@ -19,6 +20,10 @@ struct DerivativeAgreement {
   /// Whether both are the same quantity in different units or with opposite signs.
   bool disagrees() const;
 };
+
+/// Returns words such as "dq1 is 57.3 times the derivative of q1: one of them is in degrees; dq1 was left
+/// out". `joint` counts from 1.
+std::string disagreement_text(const DerivativeAgreement& agreement, int joint);
 
 /// Counts the rows in which each joint's torque is at its largest or smallest value.
 class TorqueLimits {

@@ -86,8 +86,8 @@ double rotor_beside(const Identification& id, int mass) {
 
 /// Sets the status to `unexplained` if a mass is implausible and the robot file gives no mass.
 void find_implausible(Identification& id) {
-  for (const auto& [name, fact] : id.robot.known)
-    if (name.starts_with("m")) return;
+  for (int j = 0; j < id.space.joints(); ++j)
+    if (id.robot.known.contains(fmt::format("m{}", j + 1))) return;
   for (int p = 0; p < id.space.rigid(); ++p) {
     const double mass = id.estimate[p];
     if (!id.space.base[p].is_mass || !(id.covariance(p, p) > 0.0)) continue;

@@ -55,8 +55,8 @@ double share_explained(const std::vector<Sample>& samples) {
   double left = 0.0, square = 0.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const int other = 1 - samples[i].half;
-    const double told = count[other][bin[i]] > 0.0 ? sum[other][bin[i]] / count[other][bin[i]] : mean;
-    left += (samples[i].value - told) * (samples[i].value - told);
+    const double predicted = count[other][bin[i]] > 0.0 ? sum[other][bin[i]] / count[other][bin[i]] : mean;
+    left += (samples[i].value - predicted) * (samples[i].value - predicted);
     square += (samples[i].value - mean) * (samples[i].value - mean);
   }
   return square > 0.0 ? std::max(1.0 - left / square, 0.0) : std::numeric_limits<double>::quiet_NaN();

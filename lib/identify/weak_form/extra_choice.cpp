@@ -130,8 +130,10 @@ void choose_extra(const Chooser& chooser, const ParameterSpace& space, const std
     for (const int other : group.joints)
       kept = kept && !pays(group.with, group.without, other, chooser.torque(c.weak)[other], group.worth);
     kept = kept && can_be(chooser, space, c, group);
-    c.terms.push_back(
-        {space.name(group.parameters.front()), j, kept, group.without.rms()[j], group.with.rms()[j]});
+    const ExtraKind kind = space.extra_at(group.parameters.front()).kind;
+    const bool many = is_ripple(kind) || is_of_shared_drive(kind);
+    c.terms.push_back({space.name(group.parameters.front()), j, kept, group.without.rms()[j],
+                       group.with.rms()[j], many ? TermKind::candidate : TermKind::parameter});
     if (kept) c.wanted = with_group(c.wanted, group);
     changed = changed || kept;
   }
@@ -158,8 +160,8 @@ void choose_gains(const Chooser& chooser, const std::vector<bool>& counts, Model
       if (gain_of(without, with, k).mean > gain_of(without, with, best).mean) best = k;
     }
     kept = kept && !harms;
-    c.terms.push_back(
-        {fmt::format("torque_gain_{}", j + 1), best, kept, without.rms()[best], with.rms()[best]});
+    c.terms.push_back({fmt::format("torque_gain_{}", j + 1), best, kept, without.rms()[best],
+                       with.rms()[best], TermKind::candidate});
     if (kept) c.weak = tried;
   }
 }

@@ -67,14 +67,14 @@ void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
     if (single.shift == before.shift) break;
   }
   const HeldOutError with = error_of(single);
-  std::erase_if(c.terms, [](const ModelTerm& term) { return term.name.starts_with("delay_"); });
+  std::erase_if(c.terms, [](const ModelTerm& term) { return term.kind == TermKind::delay; });
   for (int j = 0; j < joints; ++j) {
     const bool own = single.shift[j] != settled.shift[j] && pays(best, with, j, torque[j], kOwnShift) &&
                      chooser.suits_each(settled, single, wanted, chooser.scale(single, wanted), j);
     c.weak.shift[j] = own ? single.shift[j] : settled.shift[j];
     if (single.shift[j] == 0 && c.weak.shift[j] == 0) continue;
     c.terms.push_back({fmt::format("delay_{}", j + 1), j, c.weak.shift[j] != 0, without.rms()[j],
-                       own || c.weak.shift[j] == 0 ? with.rms()[j] : best.rms()[j]});
+                       own || c.weak.shift[j] == 0 ? with.rms()[j] : best.rms()[j], TermKind::delay});
   }
 }
 

@@ -93,8 +93,8 @@ void StoppedColumns::go_on(int group, const Log& rows, int at) {
   Follow& of = follow_[group];
   const double step_s = rows.time[at] - t_;
   for (std::size_t j = 0; j < rows.dq.size(); ++j) {
-    const double moved = rows.q[j][at] - q_[j], told = 0.5 * (rows.dq[j][at] + dq_[j]) * step_s;
-    if (std::isfinite(moved) && std::isfinite(told)) of.apart[j] += moved - told;
+    const double moved = rows.q[j][at] - q_[j], by_speed = 0.5 * (rows.dq[j][at] + dq_[j]) * step_s;
+    if (std::isfinite(moved) && std::isfinite(by_speed)) of.apart[j] += moved - by_speed;
     of.low[j] = std::fmin(of.low[j], rows.dq[j][at]);
     of.high[j] = std::fmax(of.high[j], rows.dq[j][at]);
   }
@@ -122,10 +122,10 @@ const std::array<ColumnHold, kColumnGroups>& StoppedColumns::take(const Log& row
   for (int group = 0; group < kColumnGroups; ++group) {
     ColumnHold& hold = holds_[group];
     const JointSignals& signals = group_of(rows, group);
-    const bool is_told = !signals.empty() && !rows.dq.empty();
-    if (!is_told || !is_row(signals, at, follow_[group].last)) {
+    const bool has_velocity = !signals.empty() && !rows.dq.empty();
+    if (!has_velocity || !is_row(signals, at, follow_[group].last)) {
       begin(group, rows, at, number);
-      hold.decided = !is_told;
+      hold.decided = !has_velocity;
       continue;
     }
     ++hold.repeats;

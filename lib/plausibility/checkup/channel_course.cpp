@@ -69,8 +69,8 @@ void ChannelCourse::add(double t, double value, double place) {
   if (now_.rows > 0 && value == now_.value) {
     ++now_.rows;
     now_.length_s = t - now_.start_s;
-    const double told = rate_ ? value * now_.length_s : 0.0;
-    const double off = std::abs(place - place_ - told);
+    const double by_rate = rate_ ? value * now_.length_s : 0.0;
+    const double off = std::abs(place - place_ - by_rate);
     if (off > now_.moved) now_.moved = off;
     return;
   }

@@ -15,7 +15,7 @@
 namespace faultline {
 namespace {
 
-/// Colours after Okabe and Ito (2008), told apart by colour-blind readers, each with its own dashes.
+/// Colours after Okabe and Ito (2008), distinct for colour-blind readers, each with its own dashes.
 constexpr std::array<PlotPen, 6> kPens = {{{"#0072b2", ""},
                                            {"#d55e00", "7 3"},
                                            {"#009e73", "2 2.5"},

@@ -10,7 +10,7 @@ namespace faultline {
 /// What the torque is taken to do between two samples.
 enum class TorqueBetween {
   controlled,  ///< what the controller makes of it: constant (held), following the state at the set-point
-               ///< that the first torque tells of (pd), or keeping the acceleration it asks for (fast)
+               ///< that the first torque implies (pd), or keeping the acceleration it asks for (fast)
   linear,      ///< moves straight to the torque of the next sample
 };
 

@@ -47,7 +47,7 @@ CaseBase cases_of_suspects(const SampleDetector& detector, std::span<const Exper
                            double sample_cap, double least, int most_false);
 
 /// Decision at the level of the episode, for each threshold (nats, ascending): both networks sum up log odds,
-/// a network whose sum reaches the threshold names its fault. Where both name the same one it is believed;
+/// a network whose sum reaches the threshold names its fault. Where both name the same one it stands;
 /// where only one does, or they name two, similar cases settle it: a fault, or a false alarm. Alarms for each
 /// threshold; after one, both sums have to return to zero before the next.
 std::vector<Alarms> decide_suspects(const std::vector<SuspectSample>& suspicions,

@@ -5,7 +5,7 @@
 
 #include "lib/reproduce/protocol/protocol.hpp"
 
-/// What readers of the tables on detection at any time are told.
+/// Explanations below the tables on detection at any time.
 namespace faultline::run_texts {
 
 std::string detectors(ControllerVariant controller);
