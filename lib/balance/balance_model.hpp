@@ -30,6 +30,9 @@ struct BalanceModel {
   Eigen::VectorXd q_noise, dq_noise;         ///< white noise of one sample
   Eigen::VectorXd q_low, q_high, top_speed;  ///< range, and the speed that 1 in 1000 rows exceeds
   Eigen::VectorXd torque_rms;
+  /// Bound of the residual torque of a joint that rests, N m or N, if static friction holds it: its torque is
+  /// any within this bound. 0 if friction by speed explains the joint at rest, too.
+  Eigen::VectorXd stiction;
   Eigen::VectorXi longest_repeat;  ///< longest run of samples that repeat the position before
   Eigen::VectorXd repeat_share;    ///< share of samples that repeat the position before
 

@@ -53,8 +53,8 @@ Terms non_negative(const TermMatrix& a, const Terms& b) {
   return best;
 }
 
-bool counts(const LogResidual& log, int k) {
-  return !log.rows->lost[k] && (log.not_counted.empty() || !log.not_counted[k]);
+bool counts(const LogResidual& log, int k, int j) {
+  return !log.rows->lost[k] && !log.rows->rests(k, j) && (log.not_counted.empty() || !log.not_counted[k]);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, const RowNo
     share << n.base * loudness[j] * loudness[j], n.torque, n.rest, n.speed, n.timing;
     for (int k = 0; k < rows.rows(); ++k) {
       out(k, j) = std::sqrt(share.dot(variance_terms(rows, setting, k, j)));
-      if (rows.lost[k]) out(k, j) *= kSilentStd;
+      if (rows.lost[k] || rows.rests(k, j)) out(k, j) *= kSilentStd;
     }
   }
   return out;
@@ -97,14 +97,14 @@ RowNoise with_variance(const std::vector<LogResidual>& logs, const RowSetting& s
     std::vector<double> squares;
     for (const LogResidual& log : logs)
       for (int k = 0; k < log.rows->rows(); ++k)
-        if (counts(log, k)) squares.push_back(log.torque(k, j) * log.torque(k, j));
+        if (counts(log, k, j)) squares.push_back(log.torque(k, j) * log.torque(k, j));
     if (squares.empty()) continue;
     const double median = upper_median(squares);
     TermMatrix a = TermMatrix::Zero();
     Terms b = Terms::Zero();
     for (const LogResidual& log : logs)
       for (int k = 0; k < log.rows->rows(); ++k) {
-        if (!counts(log, k)) continue;
+        if (!counts(log, k, j)) continue;
         const Terms x = variance_terms(*log.rows, setting, k, j);
         const double y = std::min(log.torque(k, j) * log.torque(k, j), kRare * median);
         const double weight = 1.0 / Eigen::numext::abs2(2.25 * median);
@@ -127,8 +127,10 @@ RowNoise with_filter(const std::vector<LogResidual>& logs, int order, RowNoise n
     VectorXd correlation = VectorXd::Zero(order + 1);
     double rows = 0.0;
     for (const LogResidual& log : logs) {
-      const VectorXd x = log.torque.col(j).cwiseQuotient(log.std.col(j));
+      const auto joint = static_cast<Eigen::Index>(j);
+      const VectorXd x = log.torque.col(joint).cwiseQuotient(log.std.col(joint));
       rows += static_cast<double>(x.size());
+      if (log.rows->at_rest.size() > 0) rows -= static_cast<double>(log.rows->at_rest.col(joint).count());
       for (int lag = 0; lag <= order && lag < x.size(); ++lag)
         correlation[lag] += x.head(x.size() - lag).dot(x.tail(x.size() - lag));
     }

@@ -10,6 +10,9 @@
 
 namespace faultline {
 
+/// Rows x joints.
+using JointMask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
 /// Torque balance of a log on a coarse grid (equation (1) of docs/how-it-works.md): the smoothed torque of
 /// each row and joint, and what each parameter of the robot adds to it. Row k is the motion within the kernel
 /// around time_s[k]; there is no row whose kernel leaves the log.
@@ -21,9 +24,12 @@ struct BalanceRows {
   Eigen::MatrixXd step_square;  ///< rows x joints: sum of (weight of the kernel * step of the torque)^2
   std::vector<Eigen::MatrixXd> column;  ///< by joint: rows x parameters (see ColumnLayout)
   std::vector<bool> lost;               ///< by row: its kernel crosses samples that the log lacks
+  /// Balances without weight: the joint rests within its static friction. Empty if there is none.
+  JointMask at_rest{};
 
   int rows() const { return static_cast<int>(time_s.size()); }
   int joints() const { return static_cast<int>(torque.cols()); }
+  bool rests(int row, int joint) const { return at_rest.size() > 0 && at_rest(row, joint); }
 };
 
 /// Returns the rows of one log. The spring columns take the inertia matrix from `theta`; if it is empty, they

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lib/balance/end_stop.hpp"
+#include "lib/balance/rest.hpp"
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
@@ -189,6 +190,8 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
                     model.theta.segment(layout.spring(0), joints());
   spring_ = stacked(spring);
   known_torque_ = Stacked::Zero(residual_.size());
+  const JointMask rest = rows_within_stiction(rows_, model, unstacked(residual_, joints()));
+  if (rest.size() > 0 && rest.any()) silent_.assign(rest.data(), rest.data() + rest.size());
   std_ = row_deviation(rows_, model, noise_level_);
   linear_ = linear_faults(rows_, model);
   effects_ = EffectColumns(day_columns(rows_, model));

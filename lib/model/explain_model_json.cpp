@@ -97,6 +97,7 @@ void visit_balance(Model& m, Visit& visit) {
   visit("piece_kg", m.piece_kg);
   visit("q_noise", m.q_noise);
   visit("dq_noise", m.dq_noise);
+  visit("stiction", m.stiction);
 }
 
 template <typename Model, typename Visit>
@@ -201,7 +202,7 @@ BalanceModel balance_from_json(const nlohmann::json& json, const std::string& wh
   check_sizes(where, n,
               {m.setting.friction_width.size(), m.setting.compliance.size(), std::ssize(m.noise.joint),
                m.q_noise.size(), m.q_low.size(), m.q_high.size(), m.top_speed.size(), m.torque_rms.size(),
-               m.longest_repeat.size(), m.repeat_share.size(), m.payload.cols()});
+               m.longest_repeat.size(), m.repeat_share.size(), m.payload.cols(), m.stiction.size()});
   if (m.setting.fusion.size() > 0) check_sizes(where, n, {m.setting.fusion.size()});
   check_sizes(where, m.layout().count(), {m.theta.size()});
   check_sizes(where, day_layout(m.rigid).count(), {m.day_variance.size()});

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/balance/rest.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/log/difference_velocity.hpp"
@@ -19,6 +20,11 @@ using Eigen::VectorXd;
 
 constexpr double kMostDecay = 5.0;   // samples^-1: crossover of the fusion beyond which nothing is averaged
 constexpr double kDelayPrior = 4.0;  // ridge on each delay, beside rows in N m or N: weak against any motion
+constexpr double kFewestAtRest = 20.0;     // rows at rest, and in motion, to decide whether a joint sticks
+constexpr double kSticks = 3.0;            // least ratio of the residuals at rest and in motion, rms
+constexpr double kSticksOfFriction = 0.2;  // least ratio of the residual at rest to the Coulomb friction
+constexpr double kMostAtRest = 0.995,
+                 kStictionSlack = 1.25;  // quantile of the residuals at rest, and times it
 constexpr double kSlightRidge = 1e-9;  // relative, on the diagonal: columns that the motions do not separate
 constexpr std::array kLags{-1, 0, 1, 2};                         // samples, tried for RowSetting::torque_lag
 constexpr std::array kWidths{.003, .006, .01, .016, .025, .05};  // rad/s or m/s, of friction
@@ -36,12 +42,39 @@ bool holds_no_velocity(const UniformLog& log) {
   return true;
 }
 
+/// Returns the rows of the logs without lost ones and without the balances of resting joints that stick.
 std::vector<BalanceRows> rows_of(const std::vector<UniformLog>& logs, const RowSetting& setting,
-                                 const RigidColumns& rigid) {
+                                 const BalanceModel& model) {
   std::vector<BalanceRows> out;
-  for (const UniformLog& log : logs) out.push_back(balance_rows(log, setting, rigid, {}));
+  const int n = model.joints();
+  for (const UniformLog& log : logs) {
+    BalanceRows rows = balance_rows(log, setting, model.rigid, {});
+    JointMask mask = sticking_rows(rows, model);
+    if (mask.size() == 0) mask.setConstant(rows.rows(), n, false);
+    for (int k = 0; k < rows.rows(); ++k)
+      if (rows.lost[k]) mask.row(k).setConstant(true);
+    out.push_back(without_balances(std::move(rows), mask));
+  }
   return out;
 }
+
+/// Sets the Coulomb friction of a joint to that of the setting's width.
+void renew_friction(const std::vector<UniformLog>& logs, const RowSetting& setting, const BalanceModel& model,
+                    int joint, std::vector<BalanceRows>& rows) {
+  const Eigen::Index coulomb = layout_of(model.rigid, setting).coulomb(joint);
+  for (std::size_t d = 0; d < logs.size(); ++d) {
+    rows[d].column[joint].col(coulomb) = friction_columns(logs[d], setting, joint).col(1);
+    const JointMask mask = sticking_rows(rows[d], model);
+    for (int k = 0; k < rows[d].rows(); ++k)
+      if (rows[d].lost[k] || (mask.size() > 0 && mask(k, joint))) rows[d].column[joint](k, coulomb) = 0.0;
+  }
+}
+
+/// Residuals of a joint at rest and in motion, as square sums with their numbers of rows.
+struct RestAndMotion {
+  double rest = 0.0, rest_rows = 0.0, motion = 0.0, motion_rows = 0.0;
+  std::vector<double> sizes;  ///< of those at rest
+};
 
 /// Returns the sum of squared residuals of joint `j` with parameters `theta`, and the number of rows.
 std::pair<double, double> left(const std::vector<BalanceRows>& rows, const VectorXd& theta, int j) {
@@ -126,8 +159,42 @@ VectorXd plain_fit(const std::vector<BalanceRows>& rows, const ColumnLayout& lay
   return theta;
 }
 
-RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const RigidColumns& rigid,
-                                      RowSetting setting) {
+VectorXd static_friction(const std::vector<UniformLog>& logs, const BalanceModel& model) {
+  const int n = model.joints();
+  const ColumnLayout layout = model.layout();
+  BalanceModel all_stick = model;
+  all_stick.stiction = VectorXd::Ones(n);
+  const std::vector<BalanceRows> moving = rows_of(logs, model.setting, all_stick);
+  const VectorXd theta = plain_fit(moving, layout, rigid_columns_used(model.rigid, layout), model.torque_rms);
+  std::vector<RestAndMotion> joint(n);
+  for (const UniformLog& log : logs) {
+    const BalanceRows rows = balance_rows(log, model.setting, model.rigid, {});
+    const JointMask rests = sticking_rows(rows, all_stick);
+    const MatrixXd left = rows.torque - torque_of(rows, theta);
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < rows.rows(); ++k) {
+        if (rows.lost[k]) continue;
+        const double square = Eigen::numext::abs2(left(k, j));
+        (rests(k, j) ? joint[j].rest : joint[j].motion) += square;
+        (rests(k, j) ? joint[j].rest_rows : joint[j].motion_rows) += 1.0;
+        if (rests(k, j)) joint[j].sizes.push_back(std::abs(left(k, j)));
+      }
+  }
+  VectorXd out = VectorXd::Zero(n);
+  for (int j = 0; j < n; ++j) {
+    const RestAndMotion& of = joint[j];
+    if (of.rest_rows < kFewestAtRest || of.motion_rows < kFewestAtRest) continue;
+    const double rest = std::sqrt(of.rest / of.rest_rows), motion = std::sqrt(of.motion / of.motion_rows),
+                 coulomb = theta[layout.coulomb(j)];
+    if (rest < kSticks * motion || rest < kSticksOfFriction * coulomb) continue;
+    out[j] = kStictionSlack * std::max(upper_quantile(of.sizes, kMostAtRest), coulomb);
+  }
+  return out;
+}
+
+RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const BalanceModel& model) {
+  const RigidColumns& rigid = model.rigid;
+  RowSetting setting = model.setting;
   const int n = rigid.joints();
   const ColumnLayout layout = layout_of(rigid, setting);
   const std::vector<bool> used = rigid_columns_used(rigid, layout);
@@ -136,7 +203,7 @@ RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const
   VectorXd scale = VectorXd::Ones(n);
   for (const int lag : kLags) {
     setting.torque_lag = lag;
-    const std::vector<BalanceRows> rows = rows_of(logs, setting, rigid);
+    const std::vector<BalanceRows> rows = rows_of(logs, setting, model);
     const VectorXd theta = plain_fit(rows, layout, used, VectorXd::Ones(n));
     const VectorXd rms = left_rms(rows, theta, n);
     double nats = 0.5 * theta.segment(layout.delay(0), n).squaredNorm() / Eigen::numext::abs2(kDelayStd);
@@ -148,21 +215,19 @@ RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const
     scale = rms;
   }
   setting.torque_lag = best_lag;
-  std::vector<BalanceRows> rows = rows_of(logs, setting, rigid);
+  std::vector<BalanceRows> rows = rows_of(logs, setting, model);
   for (int j = 0; j < n; ++j) {
     double narrowest = std::numeric_limits<double>::infinity(), best = setting.friction_width[j];
     for (const double width : kWidths) {
       setting.friction_width[j] = width;
-      for (std::size_t d = 0; d < logs.size(); ++d)
-        rows[d].column[j].col(layout.coulomb(j)) = friction_columns(logs[d], setting, j).col(1);
+      renew_friction(logs, setting, model, j, rows);
       const double sum = left(rows, plain_fit(rows, layout, used, scale), j).first;
       if (sum >= narrowest) continue;
       narrowest = sum;
       best = width;
     }
     setting.friction_width[j] = best;
-    for (std::size_t d = 0; d < logs.size(); ++d)
-      rows[d].column[j].col(layout.coulomb(j)) = friction_columns(logs[d], setting, j).col(1);
+    renew_friction(logs, setting, model, j, rows);
   }
   return setting;
 }

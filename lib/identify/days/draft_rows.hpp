@@ -19,10 +19,15 @@ bool hold_no_velocity(const std::vector<UniformLog>& logs);
 /// velocity by its noise.
 RowSetting draft_setting(const std::vector<UniformLog>& logs, double kernel_s, double row_s);
 
+/// Returns the static friction of each joint that it holds at rest (BalanceModel::stiction), by a rigid robot
+/// fitted to the joints in motion: 0 if its residual is not much larger at rest than in motion. `model` has
+/// rigid columns, setting and top speeds.
+Eigen::VectorXd static_friction(const std::vector<UniformLog>& logs, const BalanceModel& model);
+
 /// Chooses the lag of all torques, then the friction width of each joint, that minimise the residual of a
-/// rigid robot.
-RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const RigidColumns& rigid,
-                                      RowSetting setting);
+/// rigid robot. Joints at rest that stick do not count. `model` has rigid columns, setting, top speeds and
+/// static friction.
+RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const BalanceModel& model);
 
 /// Least squares without noise model, each joint divided by its residual `scale`; columns not `used` get 0.
 Eigen::VectorXd plain_fit(const std::vector<BalanceRows>& rows, const ColumnLayout& layout,

@@ -106,12 +106,15 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   m.setting.velocity_is_difference = without_velocity;
   m.setting.torque_is_held = options.torque_is_held;
   m.setting.averaged = samples;
-  m.setting = with_chosen_lag_and_widths(uniform, m.rigid, m.setting);
-  for (UniformLog& log : uniform) draft.days.push_back({.log = std::move(log)});
+  for (const UniformLog& log : uniform) draft.days.push_back({.log = log});
   m = with_healthy_motion(draft.days, std::move(m));
+  m.stiction = VectorXd::Zero(m.joints());
+  m.setting = with_chosen_lag_and_widths(uniform, m);
+  m.stiction = static_friction(uniform, m);
+  if (!m.stiction.isZero(0.0)) m.setting = with_chosen_lag_and_widths(uniform, m);
   draft = with_rows(std::move(draft));
   std::vector<BalanceRows> rows;
-  for (const HealthyDay& day : draft.days) rows.push_back(day.rows);
+  for (const HealthyDay& day : draft.days) rows.push_back(without_balances(day.rows, day.rows.at_rest));
   draft.used = rigid_columns_used(m.rigid, m.layout());
   draft.refused.assign(draft.used.size(), false);
   m.theta = plain_fit(rows, m.layout(), draft.used, m.torque_rms);

@@ -3,12 +3,15 @@
 
 #include <cmath>
 
+#include "lib/balance/rest.hpp"
+
 namespace faultline {
 
 DayDraft with_rows(DayDraft draft) {
   const BalanceModel& m = draft.model;
   for (HealthyDay& day : draft.days) {
     day.rows = balance_rows(day.log, m.setting, m.rigid, m.theta);
+    day.rows.at_rest = sticking_rows(day.rows, m);
     if (day.piece.size() == 0) day.piece.setZero(day.rows.rows(), m.joints());
   }
   return draft;

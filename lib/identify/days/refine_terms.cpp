@@ -24,12 +24,13 @@ constexpr double kWidthRidge = 1e-12;  // for joints at rest
 constexpr double kLeastExplained = 0.05;  // of the squared residual: a ripple that explains less is rejected
 constexpr double kCut = 4.0;              // standard deviations at which a residual is cut
 
-/// Returns the rows of a day that determine its friction: neither lost nor near a change of the work piece.
-std::vector<int> rows_of_friction(const HealthyDay& day, const BalanceModel& m) {
+/// Returns the rows of a day that determine the friction of joint `j`: neither lost nor near a change of the
+/// work piece, and the joint is not held by static friction.
+std::vector<int> rows_of_friction(const HealthyDay& day, const BalanceModel& m, int j) {
   const std::vector<bool> near = rows_near_change(day, m);
   std::vector<int> rows;
   for (int k = 0; k < day.rows.rows(); ++k)
-    if (!day.rows.lost[k] && (near.empty() || !near[k])) rows.push_back(k);
+    if (!day.rows.lost[k] && !day.rows.rests(k, j) && (near.empty() || !near[k])) rows.push_back(k);
   return rows;
 }
 
@@ -43,7 +44,7 @@ double residual_with(const HealthyDay& day, const BalanceModel& m, int j, const 
   y += (m.theta[at.spring(j)] - setting.compliance[j]) * column.col(at.spring(j));
   MatrixXd x(y.size(), 3);
   x << friction_columns(day.log, setting, j), VectorXd::Ones(y.size());
-  const std::vector<int> rows = rows_of_friction(day, m);
+  const std::vector<int> rows = rows_of_friction(day, m, j);
   x = x(rows, Eigen::all).eval();
   y = y(rows).eval();
   const MatrixXd square = x.transpose() * x + kWidthRidge * MatrixXd::Identity(3, 3);
@@ -72,7 +73,8 @@ Column column_of(const std::vector<LogResidual>& logs, int j) {
   Column out;
   for (const LogResidual& log : logs)
     for (int k = 0; k < log.rows->rows(); ++k) {
-      if (log.rows->lost[k] || (!log.not_counted.empty() && log.not_counted[k])) continue;
+      if (log.rows->lost[k] || log.rows->rests(k, j) || (!log.not_counted.empty() && log.not_counted[k]))
+        continue;
       out.q.push_back(log.rows->q(k, j));
       out.dq.push_back(log.rows->dq(k, j));
       out.torque.push_back(log.rows->torque(k, j));
@@ -150,9 +152,9 @@ DayDraft with_refined_widths(DayDraft draft) {
 
 DayDraft with_chosen_springs(DayDraft draft) {
   const BalanceModel& m = draft.model;
-  double rows = 0.0;
-  for (const HealthyDay& day : draft.days) rows += static_cast<double>(rows_of_friction(day, m).size());
   for (int j = 0; j < m.joints(); ++j) {
+    double rows = 0.0;
+    for (const HealthyDay& day : draft.days) rows += static_cast<double>(rows_of_friction(day, m, j).size());
     const int spring = m.layout().spring(j);
     const auto left = [&](double compliance) {
       RowSetting setting = m.setting;
