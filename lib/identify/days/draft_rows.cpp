@@ -18,8 +18,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMostDecay = 5.0;   // samples^-1: crossover of the fusion beyond which nothing is averaged
-constexpr double kDelayPrior = 4.0;  // ridge on each delay, beside rows in N m or N: weak against any motion
+constexpr double kMostDecay = 5.0;    // samples^-1: crossover of the fusion beyond which nothing is averaged
+constexpr double kLeastDecay = 1e-3;  // the same, below which a velocity without noise would never forget
+constexpr double kDelayPrior = 4.0;   // ridge on each delay, beside rows in N m or N: weak against any motion
 constexpr double kFewestAtRest = 20.0;     // rows at rest, and in motion, to decide whether a joint sticks
 constexpr double kSticks = 3.0;            // least ratio of the residuals at rest and in motion, rms
 constexpr double kSticksOfFriction = 0.2;  // least ratio of the residual at rest to the Coulomb friction
@@ -119,8 +120,8 @@ RowSetting draft_setting(const std::vector<UniformLog>& logs, double kernel_s, d
   }
   const VectorXd q_noise = joint_medians(q), dq_noise = joint_medians(dq);
   for (int j = 0; j < n; ++j)
-    out.fusion[j] =
-        elementary::exp(-std::min(dq_noise[j] / std::max(q_noise[j], 1e-9) * out.period_s, kMostDecay));
+    out.fusion[j] = elementary::exp(
+        -std::clamp(dq_noise[j] / std::max(q_noise[j], 1e-9) * out.period_s, kLeastDecay, kMostDecay));
   return out;
 }
 

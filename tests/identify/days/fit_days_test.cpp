@@ -8,8 +8,10 @@
 #include <numbers>
 
 #include "lib/core/random.hpp"
+#include "lib/identify/days/draft_rows.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/robot/robot_file.hpp"
+#include "tests/explain/explained_scara.hpp"
 
 namespace faultline {
 namespace {
@@ -91,6 +93,12 @@ TEST(FitDays, AGearThatGivesWayHasItsCompliance) {
   const BalanceModel model = fitted(joint, 0.002);
   EXPECT_NEAR(model.compliance(0) * kStiffness, 1.0, 0.2);
   EXPECT_NEAR(model.setting.compliance[0] / model.compliance(0), 1.0, 0.01);
+}
+
+TEST(DraftSetting, AVelocityWithoutNoiseGivesAFiniteVelocity) {
+  UniformLog log = testing::on_grid(testing::simulate_closed_form(testing::of_day(0), testing::run_of(1)));
+  log.dq_noise.setZero();
+  EXPECT_TRUE(fused_velocity(log, draft_setting({log}, 0.016, 0.032)).allFinite());
 }
 
 }  // namespace
