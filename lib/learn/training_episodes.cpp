@@ -40,11 +40,15 @@ void check_kinds(const std::vector<LabelledEpisode>& episodes, std::size_t runs)
       if (std::find(labels.begin(), labels.end(), episodes[i].label) == labels.end())
         labels.push_back(episodes[i].label);
     if (labels.size() < 2)
-      throw Error(ErrorCode::input, "the healthy logs",
-                  fmt::format("are too noisy, or the robot explains too little of them, to distinguish "
-                              "faults: only {} of {} simulated faults show in them. Check units, signs and "
-                              "columns. If they are right, record longer and faster motions with less noise",
-                              episodes.size(), runs));
+      throw Error(
+          ErrorCode::input, "the healthy logs",
+          fmt::format("leave so much torque unexplained that faults cannot be distinguished: only {} "
+                      "of {} simulated faults show in them. Look at the residual of each joint: "
+                      "faultline identify LOG... --robot ROBOT.toml -o F --html F. If it is large in "
+                      "every row, check units, signs and columns; if it is noise, record faster motions; "
+                      "if it is large in some rows, the robot has what the model lacks, such as an "
+                      "elastic joint",
+                      episodes.size(), runs));
   }
 }
 
