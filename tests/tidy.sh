@@ -34,6 +34,7 @@ mapfile -t known < <(printf '%s\n' "${files[@]}" | while read -r file; do
   grep -qF "\"file\": \"$PWD/$file\"" build/tidy/compile_commands.json && echo "$file"
 done)
 echo "tidy: ${#known[@]} sources" >&2
+[ ${#known[@]} -gt 0 ] || exit 0
 printf '%s\0' "${known[@]}" |
   xargs -0 -P "$(nproc)" -n 1 clang-tidy --quiet -p build/tidy --extra-arg=-Wno-unknown-warning-option 2>/dev/null
 echo "tidy: no warning" >&2

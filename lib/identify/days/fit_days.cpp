@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/balance/rest.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/day_arrow.hpp"
 #include "lib/identify/days/draft_rows.hpp"
