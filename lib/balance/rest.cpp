@@ -2,6 +2,7 @@
 #include "lib/balance/rest.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace faultline {
 namespace {

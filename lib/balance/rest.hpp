@@ -24,8 +24,7 @@ JointMask sticking_rows(const BalanceRows& rows, const BalanceModel& model);
 JointMask rows_within_stiction(const BalanceRows& rows, const BalanceModel& model,
                                const Eigen::MatrixXd& residual);
 
-/// Returns the rows with zeros in the balances of resting joints that stick, so that a sum over them leaves
-/// these balances out.
+/// Returns the rows with zeros in the balances that `mask` marks, so that a sum over them leaves these out.
 BalanceRows without_balances(BalanceRows rows, const JointMask& mask);
 
 }  // namespace faultline

@@ -6,36 +6,16 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <vector>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/random.hpp"
+#include "tests/bench/call_time.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr int kArguments = 4096, kRepeats = 100, kRounds = 15;
-
-double processor_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
-
-/// Nanoseconds a call.
-template <typename F>
-double time_of(const F& function, const std::vector<double>& arguments) {
-  volatile double kept = 0.0;
-  const double begin = processor_ns();
-  for (int repeat = 0; repeat < kRepeats; ++repeat) {
-    double sum = 0.0;
-    for (const double x : arguments) sum += function(x);
-    kept = sum;
-  }
-  (void)kept;
-  return (processor_ns() - begin) / (kRepeats * static_cast<double>(arguments.size()));
-}
 
 template <typename Ours, typename Theirs>
 void compare(const char* name, double low, double high, const Ours& ours, const Theirs& theirs) {
@@ -49,8 +29,8 @@ void compare(const char* name, double low, double high, const Ours& ours, const 
   }
   std::array<double, kRounds> mine{}, other{};
   for (int round = 0; round < kRounds; ++round) {
-    mine[round] = time_of(ours, arguments);
-    other[round] = time_of(theirs, arguments);
+    mine[round] = time_of(ours, arguments, kRepeats);
+    other[round] = time_of(theirs, arguments, kRepeats);
   }
   const auto median = [](std::array<double, kRounds>& times) {
     std::nth_element(times.begin(), times.begin() + kRounds / 2, times.end());

@@ -7,35 +7,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <vector>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/random.hpp"
+#include "tests/bench/call_time.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr int kArguments = 4096, kRepeats = 50, kRounds = 15;
 
-double processor_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
-
 template <typename F>
-double time_of(const F& function, const std::vector<double>& arguments) {
-  double least = 1e300;
-  for (int round = 0; round < kRounds; ++round) {
-    const double begin = processor_ns();
-    double sum = 0.0;
-    for (int repeat = 0; repeat < kRepeats; ++repeat)
-      for (const double x : arguments) sum += function(x);
-    volatile double kept = sum;
-    (void)kept;
-    least = std::min(least, (processor_ns() - begin) / (kRepeats * kArguments));
-  }
+double least_time_of(const F& function, const std::vector<double>& arguments) {
+  double least = HUGE_VAL;
+  for (int round = 0; round < kRounds; ++round)
+    least = std::min(least, time_of(function, arguments, kRepeats));
   return least;
 }
 
@@ -56,8 +43,8 @@ void compare(const char* name, double low, double high, const Ours& ours, const 
   Random random(1);
   std::vector<double> arguments(kArguments);
   for (double& x : arguments) x = random.uniform(low, high);
-  std::printf("%-6s ours %5.1f ns %.3f ulp   SLEEF %5.1f ns %.3f ulp\n", name, time_of(ours, arguments),
-              error_of(ours, truth, arguments), time_of(theirs, arguments),
+  std::printf("%-6s ours %5.1f ns %.3f ulp   SLEEF %5.1f ns %.3f ulp\n", name, least_time_of(ours, arguments),
+              error_of(ours, truth, arguments), least_time_of(theirs, arguments),
               error_of(theirs, truth, arguments));
 }
 
