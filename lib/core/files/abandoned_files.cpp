@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <ctime>
 #include <filesystem>
 #include <mutex>
@@ -24,22 +22,15 @@ constexpr std::time_t kLongUntouched_s = 24 * 3600;  // a running program writes
 
 bool is_untouched(const struct stat& facts) { return std::time(nullptr) - facts.st_mtime > kLongUntouched_s; }
 
-bool is_dead(long long process) {
-  return process > 0 && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
-}
-
 /// Whether the program that created the open file, which has no lock, cannot be running.
 bool is_abandoned(const fs::path& path, const struct stat& facts) {
-  const std::string name = path.filename().string();
-  switch (temporary_kind(name)) {
+  switch (temporary_kind(path.filename().string())) {
     case TemporaryKind::none:
       return false;
     case TemporaryKind::this_machine:
       return true;
     case TemporaryKind::other_machine:
       return is_untouched(facts);
-    case TemporaryKind::earlier:
-      return is_untouched(facts) && is_dead(process_of(name));
   }
   return false;
 }

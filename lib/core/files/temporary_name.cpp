@@ -7,10 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <random>
-#include <regex>
 
 #include "lib/core/hash.hpp"
 
@@ -56,21 +54,12 @@ std::string temporary_name(const std::string& path) {
 }
 
 TemporaryKind temporary_kind(std::string_view name) {
-  static const std::regex earlier("[0-9]+(-[0-9]+)?(-journal)?");
   const std::string_view tail = tail_of(name);
-  if (tail.size() == kMachineDigits + kRandomDigits && is_hexadecimal(tail))
-    return tail.substr(0, kMachineDigits) == machine() ? TemporaryKind::this_machine
-                                                       : TemporaryKind::other_machine;
-  return std::regex_match(tail.begin(), tail.end(), earlier) ? TemporaryKind::earlier : TemporaryKind::none;
+  if (tail.size() != kMachineDigits + kRandomDigits || !is_hexadecimal(tail)) return TemporaryKind::none;
+  return tail.substr(0, kMachineDigits) == machine() ? TemporaryKind::this_machine
+                                                     : TemporaryKind::other_machine;
 }
 
 bool is_temporary_name(std::string_view name) { return temporary_kind(name) != TemporaryKind::none; }
-
-long long process_of(std::string_view earlier_name) {
-  const std::string_view tail = tail_of(earlier_name);
-  long long process = 0;
-  std::from_chars(tail.data(), tail.data() + tail.size(), process);
-  return process;
-}
 
 }  // namespace faultline

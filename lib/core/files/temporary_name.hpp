@@ -15,12 +15,8 @@ enum class TemporaryKind {
   none,           ///< not a temporary name
   this_machine,   ///< of this machine: a running program holds a lock on its file
   other_machine,  ///< perhaps of a running program whose locks are not visible here
-  earlier,        ///< of a version of the program that did not lock
 };
 TemporaryKind temporary_kind(std::string_view name);
 bool is_temporary_name(std::string_view name);
-
-/// Returns the process id in a name of an earlier version.
-long long process_of(std::string_view earlier_name);
 
 }  // namespace faultline

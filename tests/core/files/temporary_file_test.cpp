@@ -86,19 +86,23 @@ TEST(TemporaryFile, WhatADeadProgramLeftGoesAndWhatALivingOneWritesStays) {
   EXPECT_EQ(names[1], "new");
 }
 
-TEST(TemporaryFile, NamesOfEarlierVersionsGoOnceTheyAreOldAndOthersStay) {
+TEST(TemporaryFile, NamesOfAnotherMachineGoOnceTheyAreOldAndOthersStay) {
   const TemporaryFolder folder;
   const auto old = fs::file_time_type::clock::now() - std::chrono::hours(48);
-  for (const char* name : {"a.json.partial-999999999-77", "m.cases.db.partial-999999999-journal",
-                           "report.partial-draft", "x.partial-0123456789abcdef"})
-    fs::last_write_time(folder.write(name, "x"), old);
-  folder.write("b.json.partial-999999999-77", "written just now");
-  fs::last_write_time(folder.write("c.json.partial-" + std::to_string(::getpid()) + "-1", "alive"), old);
+  std::string there = temporary_name("a.json"), new_there = temporary_name("b.json");
+  for (std::string* name : {&there, &new_there}) {
+    char& digit = (*name)[name->rfind('-') + 1];  // of the machine
+    digit = digit == '0' ? '1' : '0';
+  }
+  const std::vector<std::string> others = {"c.json.partial-999999999-77", "report.partial-draft",
+                                           "x.partial-0123456789abcdef"};
+  fs::last_write_time(folder.write(there, "x"), old);
+  folder.write(new_there, "written just now");
+  for (const std::string& name : others) fs::last_write_time(folder.write(name, "x"), old);
   remove_abandoned_files(folder.path().string());
-  EXPECT_EQ(names_in(folder.path()),
-            (std::vector<std::string>{"b.json.partial-999999999-77",
-                                      "c.json.partial-" + std::to_string(::getpid()) + "-1",
-                                      "report.partial-draft", "x.partial-0123456789abcdef"}));
+  std::vector<std::string> left = {new_there};
+  left.insert(left.end(), others.begin(), others.end());
+  EXPECT_EQ(names_in(folder.path()), left);
 }
 
 TEST(TemporaryFile, NamesCannotBeForetoldAndAreRecognised) {
