@@ -16,8 +16,7 @@ inline constexpr std::string_view kNativeMagic{
     "\x89"
     "FLOG\r\n\x1a",
     8};
-inline constexpr std::uint32_t kNativeVersion = 2;              ///< version that is written
-inline constexpr std::uint32_t kTwoPrefacesVersion = 2;         ///< first with two copies of the preface
+inline constexpr std::uint32_t kNativeVersion = 2;
 inline constexpr std::uint32_t kChunkMarker = 0x4b4e4843;       ///< "CHNK"
 inline constexpr std::uint32_t kProvenanceMarker = 0x564f5250;  ///< "PROV"
 inline constexpr std::uint32_t kEndMarker = 0x454e4f44;         ///< "DONE"

@@ -36,8 +36,7 @@ NativePreface first_fields(std::string_view bytes) {
 std::size_t sound_preface(ByteWindow& bytes, std::size_t at) {
   if (!bytes.fill(at + sizeof(NativePreface))) return 0;
   const NativePreface preface = first_fields(bytes.view().substr(at));
-  const bool known = preface.version >= 1 && preface.version <= kNativeVersion;
-  if (!known || preface.list_bytes > kLongestList) return 0;
+  if (preface.version != kNativeVersion || preface.list_bytes > kLongestList) return 0;
   const std::size_t hashed = sizeof preface + preface.list_bytes, size = hashed + sizeof(std::uint64_t);
   if (!bytes.fill(at + size)) return 0;
   const std::string_view all = bytes.view().substr(at, size);
@@ -67,8 +66,12 @@ std::size_t second_copy(ByteWindow& bytes) {
   const NativePreface preface = first_fields(bytes.view());
   if (preface.version > kNativeVersion)
     fail_preface(path,
-                 fmt::format("has format version {}, but this program reads versions up to {}; use a newer "
-                             "faultline",
+                 fmt::format("has format version {}, this program reads version {}; use a newer faultline",
+                             preface.version, kNativeVersion));
+  if (preface.version > 0 && preface.version < kNativeVersion)
+    fail_preface(path,
+                 fmt::format("has format version {} of an earlier program, this one reads version {}; record "
+                             "it again, or convert its original again with faultline convert",
                              preface.version, kNativeVersion));
   fail_preface(path, "has a damaged header (its checksum does not match); nothing can be read from it");
 }
@@ -106,7 +109,7 @@ void pass_copy(ByteWindow& bytes, const std::string& first, Issues& issues) {
 
 /// Reads the columns from the preface of a native log, or from its second copy when the first is damaged
 /// (which adds an issue), and moves `bytes` to the first chunk. Throws Error(input) when none can be read or
-/// the file is of a newer version.
+/// the file is of another version.
 std::vector<RawColumn> read_native_preface(ByteWindow& bytes, const std::string& path, Issues& issues) {
   std::size_t size = sound_preface(bytes, 0);
   const bool first_is_sound = size > 0;
@@ -122,8 +125,7 @@ std::vector<RawColumn> read_native_preface(ByteWindow& bytes, const std::string&
   const std::size_t list = sizeof(NativePreface);
   std::vector<RawColumn> columns =
       columns_of(std::string_view(preface).substr(list, size - list - sizeof(std::uint64_t)), path);
-  if (first_is_sound && first_fields(preface).version >= kTwoPrefacesVersion)
-    pass_copy(bytes, preface, issues);
+  if (first_is_sound) pass_copy(bytes, preface, issues);
   return columns;
 }
 

@@ -13,7 +13,7 @@ namespace faultline {
 bool looks_like_native(std::string_view head);
 
 /// Opens a native log. Damaged chunks are omitted and reported, a cut file is read to its last whole chunk.
-/// Throws Error(input) when both copies of the header are damaged, or the version is newer.
+/// Throws Error(input) when both copies of the header are damaged, or the file is of another version.
 std::unique_ptr<RawReader> open_native(std::unique_ptr<ByteSource> bytes);
 
 }  // namespace faultline

@@ -17,6 +17,7 @@ std::string_view bytes_of_value(const Value& value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
+/// One copy of the preface, of any version.
 inline std::string native_preface_of(std::uint32_t version, std::string_view list) {
   NativePreface preface;
   std::copy(kNativeMagic.begin(), kNativeMagic.end(), preface.magic.begin());
@@ -24,6 +25,12 @@ inline std::string native_preface_of(std::uint32_t version, std::string_view lis
   preface.list_bytes = static_cast<std::uint32_t>(list.size());
   std::string bytes = std::string(bytes_of_value(preface)).append(list);
   return bytes.append(bytes_of_value(native_hash(bytes)));
+}
+
+/// Both copies of the preface.
+inline std::string native_prefaces(std::string_view list) {
+  const std::string one = native_preface(list);
+  return one + one;
 }
 
 /// A header with a sound hash; `numbers` are those that its hash is of.
