@@ -36,11 +36,11 @@ void check_file(const std::string& path) {
     refuse_file(path, "is empty; a case base was expected. Restore it from a copy or run learn again");
 }
 
-void check_whole(SqliteFile& file, const std::string& path, std::int64_t version) {
+void check_whole(SqliteFile& file, const std::string& path) {
   const std::string check = file.text("PRAGMA quick_check(1)");
   if (check != "ok")
     refuse_file(path, "is a damaged or truncated case base (" + check + "); restore it from a copy");
-  if (version > 1 && file.text("SELECT digest FROM identity") != case_tables_digest(file, version))
+  if (file.text("SELECT digest FROM identity") != case_tables_digest(file))
     refuse_file(path,
                 "is damaged, or was changed by another program: its content does not match its digest; "
                 "restore it from a copy or run learn again");
@@ -84,7 +84,7 @@ void bind_label(SqliteStatement& row, const FaultLabel& label) {
   row.bind(std::string(to_string(label.kind))).bind(static_cast<std::int64_t>(label.joint));
 }
 
-Case case_at(const SqliteStatement& row, std::int64_t version) {
+Case case_at(const SqliteStatement& row) {
   Case c;
   c.id = row.integer(0);
   c.label = label_at(row, 1);
@@ -96,11 +96,9 @@ Case case_at(const SqliteStatement& row, std::int64_t version) {
   c.episode.rbfn = {label_at(row, 11), row.real(13)};
   c.episode.evidence = row.real(14);
   c.episode.features = from_bytes(row.blob(15));
-  if (version == 1) return c;
   c.log_sha256 = row.text(16);
   c.onset_s = row.real(17);
   c.features_by = row.text(18);
-  if (version == 2) return c;
   c.log_name = row.text(19);
   c.robot = row.text(20);
   c.person = row.text(21);
@@ -140,19 +138,18 @@ Metric metric_in_tables(SqliteFile& file) {
   return metric;
 }
 
-std::vector<Case> cases_in_tables(SqliteFile& file, std::int64_t version) {
-  std::string columns =
-      "id, kind, joint, decision_kind, decision_joint, outcome, what_was_done, origin, mlp_kind, mlp_joint, "
-      "mlp_confidence, rbfn_kind, rbfn_joint, rbfn_confidence, evidence, features";
-  if (version > 1) columns += ", log_sha256, onset_s, features_by";
-  if (version > 2) columns += ", log_name, robot, person, date";
+std::vector<Case> cases_in_tables(SqliteFile& file) {
   std::vector<Case> cases;
-  SqliteStatement row(file, ("SELECT " + columns + " FROM fault_case ORDER BY id").c_str());
-  while (row.step()) cases.push_back(case_at(row, version));
+  SqliteStatement row(
+      file,
+      "SELECT id, kind, joint, decision_kind, decision_joint, outcome, what_was_done, origin, mlp_kind, "
+      "mlp_joint, mlp_confidence, rbfn_kind, rbfn_joint, rbfn_confidence, evidence, features, log_sha256, "
+      "onset_s, features_by, log_name, robot, person, date FROM fault_case ORDER BY id");
+  while (row.step()) cases.push_back(case_at(row));
   return cases;
 }
 
-/// Fills empty tables of the newest version.
+/// Fills empty tables.
 void fill_tables(SqliteFile& file, const CaseBase& base) {
   write_metric(file, base.metric());
   SqliteStatement row(file, "INSERT INTO fault_case VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
@@ -165,13 +162,12 @@ void fill_tables(SqliteFile& file, const CaseBase& base) {
 
 /// Reads the base within a transaction of the caller, so that all statements see the same state of the file.
 CaseBase read_content(SqliteFile& file, const std::string& path) try {
-  const std::int64_t version = checked_case_schema(file, path);
-  check_whole(file, path, version);
-  CaseBase base(metric_in_tables(file), cases_in_tables(file, version));
+  check_case_schema(file, path);
+  check_whole(file, path);
+  CaseBase base(metric_in_tables(file), cases_in_tables(file));
   check_counts(file, path, base);
-  if (version > 1) base.belong_to(file.text("SELECT model FROM identity"));
-  if (version > 2)
-    base.describe_robot({file.text("SELECT robot FROM identity"), file.text("SELECT axes FROM identity")});
+  base.belong_to(file.text("SELECT model FROM identity"));
+  base.describe_robot({file.text("SELECT robot FROM identity"), file.text("SELECT axes FROM identity")});
   return base;
 } catch (const Error& error) {
   if (error.where() == path) throw;
@@ -225,9 +221,9 @@ void rewrite(const std::string& path, const std::function<CaseBase(SqliteFile& f
   SqliteFile file(path, SqliteMode::change);
   file.text("PRAGMA journal_mode = DELETE");  // one file, even if another tool had left it in WAL mode
   file.run("BEGIN IMMEDIATE");
-  const std::int64_t version = checked_case_schema(file, path);
+  check_case_schema(file, path);
   const CaseBase base = make(file);
-  drop_case_tables(file, version);
+  drop_case_tables(file);
   fill(file, base);
   file.run("COMMIT");
 }

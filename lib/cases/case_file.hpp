@@ -12,9 +12,9 @@ namespace faultline {
 std::string case_base_path(const std::string& model);
 
 /// The case base as one SQLite file: application id "FLCB", schema version 3 (docs/model-and-case-base.md).
-/// Versions 1 and 2 are read, too, and become version 3 by a change. All functions throw Error(input) with
-/// the defect of the file: missing, a directory or device, empty, truncated, damaged (its digest does not
-/// fit), with tables of its own, written by another program or by a newer faultline.
+/// All functions throw Error(input) with the defect of the file: missing, a directory or device, empty,
+/// truncated, damaged (its digest does not fit), with tables of its own, of another program or another schema
+/// version.
 
 /// Opens the file read-only, without changing even its time stamp. Undoes an interrupted change in a copy, so
 /// that no write permission is needed.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lib/cases/case_hash.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -40,24 +39,6 @@ class ContentHash {
   Sha256 hash_;
 };
 
-bool tells_of_its_log(const Case& c) {
-  return !c.log_sha256.empty() || !std::isnan(c.onset_s) || !c.features_by.empty();
-}
-
-void add_log(ContentHash& hash, const Case& c) {
-  hash.add(c.log_sha256);
-  hash.add(c.onset_s);
-  hash.add(c.features_by);
-}
-
-bool tells_who(const Case& c) {
-  return !c.log_name.empty() || !c.robot.empty() || !c.person.empty() || !c.date.empty();
-}
-
-void add_who(ContentHash& hash, const Case& c) {
-  for (const std::string& text : {c.log_name, c.robot, c.person, c.date}) hash.add(text);
-}
-
 void add_content(ContentHash& hash, const Case& c) {
   for (const double x : c.episode.features) hash.add(x);
   hash.add(c.episode.mlp);
@@ -68,6 +49,10 @@ void add_content(ContentHash& hash, const Case& c) {
   hash.add(std::string(to_string(c.outcome)));
   hash.add(c.what_was_done);
   hash.add(c.origin);
+  hash.add(c.log_sha256);
+  hash.add(c.onset_s);
+  hash.add(c.features_by);
+  for (const std::string& text : {c.log_name, c.robot, c.person, c.date}) hash.add(text);
 }
 
 void add_metric(ContentHash& hash, const Metric& metric) {
@@ -83,22 +68,15 @@ void add_metric(ContentHash& hash, const Metric& metric) {
 }  // namespace
 
 std::string content_hash(const CaseBase& base) {
-  const std::vector<Case>& cases = base.cases();
-  const bool tell_who = base.robot() != CaseRobot{} || std::any_of(cases.begin(), cases.end(), tells_who);
-  const bool tell_logs = tell_who || std::any_of(cases.begin(), cases.end(), tells_of_its_log);
   ContentHash hash;
-  hash.add(std::string("faultline/cases/") + (tell_who ? "3" : tell_logs ? "2" : "1"));
+  hash.add(std::string("faultline/cases/3"));
   add_metric(hash, base.metric());
-  if (tell_who) {
-    hash.add(base.robot().name);
-    hash.add(base.robot().axes);
-  }
-  hash.add_bits(cases.size());
-  for (const Case& c : cases) {
+  hash.add(base.robot().name);
+  hash.add(base.robot().axes);
+  hash.add_bits(base.cases().size());
+  for (const Case& c : base.cases()) {
     hash.add_bits(static_cast<std::uint64_t>(c.id));
     add_content(hash, c);
-    if (tell_logs) add_log(hash, c);
-    if (tell_who) add_who(hash, c);
   }
   return hash.hex();
 }
@@ -106,8 +84,6 @@ std::string content_hash(const CaseBase& base) {
 std::string content_hash(const Case& c) {
   ContentHash hash;
   add_content(hash, c);
-  add_log(hash, c);
-  add_who(hash, c);
   return hash.hex();
 }
 

@@ -11,9 +11,8 @@ namespace {
 constexpr std::int64_t kApplicationId = 0x464c4342;  // "FLCB"
 static_assert(kApplicationId == 1179403074);
 
-/// Returns the tables as SQL, without significant white space; each version extends the one before.
-std::string tables_of(std::int64_t version) {
-  std::string tables = R"(
+/// The tables as SQL, without significant white space.
+constexpr const char* kTables = R"(
     CREATE TABLE metric(near_similarity REAL NOT NULL) STRICT;
     CREATE TABLE feature(position INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE,
                          scale REAL NOT NULL, weight REAL NOT NULL) STRICT;
@@ -24,17 +23,11 @@ std::string tables_of(std::int64_t version) {
       outcome TEXT NOT NULL, what_was_done TEXT NOT NULL, origin TEXT NOT NULL,
       mlp_kind TEXT NOT NULL, mlp_joint INTEGER NOT NULL, mlp_confidence REAL NOT NULL,
       rbfn_kind TEXT NOT NULL, rbfn_joint INTEGER NOT NULL, rbfn_confidence REAL NOT NULL,
-      evidence REAL, features BLOB NOT NULL)";
-  if (version == 1) return tables + ") STRICT;";
-  tables += ", log_sha256 TEXT NOT NULL, onset_s REAL, features_by TEXT NOT NULL";
-  if (version == 2)
-    return tables + R"() STRICT;
-    CREATE TABLE identity(model TEXT NOT NULL, digest TEXT NOT NULL) STRICT;)";
-  return tables + R"(,
+      evidence REAL, features BLOB NOT NULL)"
+                                R"(, log_sha256 TEXT NOT NULL, onset_s REAL, features_by TEXT NOT NULL,
       log_name TEXT NOT NULL, robot TEXT NOT NULL, person TEXT NOT NULL, date TEXT NOT NULL) STRICT;
     CREATE TABLE identity(model TEXT NOT NULL, robot TEXT NOT NULL, axes TEXT NOT NULL,
                           digest TEXT NOT NULL) STRICT;)";
-}
 
 /// Returns the whole schema as one text, without white space.
 std::string schema_of(SqliteFile& file) {
@@ -50,9 +43,9 @@ std::string schema_of(SqliteFile& file) {
   return words;
 }
 
-std::string expected_schema(std::int64_t version) {
+std::string expected_schema() {
   SqliteFile memory(":memory:", SqliteMode::create);
-  memory.run(tables_of(version).c_str());
+  memory.run(kTables);
   return schema_of(memory);
 }
 
@@ -84,40 +77,41 @@ void add_rows(SqliteFile& file, const char* sql, Sha256& hash) {
 }  // namespace
 
 void create_case_tables(SqliteFile& file) {
-  file.run(tables_of(kCaseSchemaVersion).c_str());
+  file.run(kTables);
   file.run(("PRAGMA application_id = " + std::to_string(kApplicationId)).c_str());
   file.run(("PRAGMA user_version = " + std::to_string(kCaseSchemaVersion)).c_str());
 }
 
-void drop_case_tables(SqliteFile& file, std::int64_t version) {
-  file.run("DROP TABLE metric; DROP TABLE feature; DROP TABLE fault_case; DROP TABLE counts");
-  if (version > 1) file.run("DROP TABLE identity");
+void drop_case_tables(SqliteFile& file) {
+  file.run(
+      "DROP TABLE metric; DROP TABLE feature; DROP TABLE fault_case; DROP TABLE counts; DROP TABLE identity");
 }
 
-std::int64_t checked_case_schema(SqliteFile& file, const std::string& name) {
+void check_case_schema(SqliteFile& file, const std::string& name) {
   const std::int64_t application = file.number("PRAGMA application_id");
   if (application != kApplicationId)
     refuse_schema(name, "is an SQLite file of another program, not a case base of faultline");
   const std::int64_t version = file.number("PRAGMA user_version");
   if (version > kCaseSchemaVersion)
     refuse_schema(name, "was written by a newer faultline (case base schema " + std::to_string(version) +
-                            ", this program reads up to " + std::to_string(kCaseSchemaVersion) +
+                            ", this program reads " + std::to_string(kCaseSchemaVersion) +
                             "); update the program");
   if (version < 1) refuse_schema(name, "has the unknown case base schema " + std::to_string(version));
-  if (schema_of(file) != expected_schema(version))
+  if (version < kCaseSchemaVersion)
+    refuse_schema(name, "has the case base schema " + std::to_string(version) +
+                            " of an earlier program, this one reads " + std::to_string(kCaseSchemaVersion) +
+                            "; learn the model again");
+  if (schema_of(file) != expected_schema())
     refuse_schema(name, "has tables that differ from those of a case base of faultline" +
                             unknown_element(file) +
                             ": it is damaged, or was changed by another program; restore it from a copy");
-  return version;
 }
 
-std::string case_tables_digest(SqliteFile& file, std::int64_t version) {
-  const char* const identity = version == 2 ? "SELECT model FROM identity ORDER BY rowid"
-                                            : "SELECT model, robot, axes FROM identity ORDER BY rowid";
+std::string case_tables_digest(SqliteFile& file) {
   Sha256 hash;
-  for (const char* rows :
-       {"SELECT * FROM metric ORDER BY rowid", "SELECT * FROM feature ORDER BY position",
-        "SELECT * FROM fault_case ORDER BY id", "SELECT * FROM counts ORDER BY rowid", identity})
+  for (const char* rows : {"SELECT * FROM metric ORDER BY rowid", "SELECT * FROM feature ORDER BY position",
+                           "SELECT * FROM fault_case ORDER BY id", "SELECT * FROM counts ORDER BY rowid",
+                           "SELECT model, robot, axes FROM identity ORDER BY rowid"})
     add_rows(file, rows, hash);
   return hash.hex();
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Case bases that were changed by something else than this program: damaged, of an earlier version, or made
-// to do harm.
+// to do harm, also under a digest that fits.
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/case_json.hpp"
@@ -17,9 +16,6 @@
 
 namespace faultline {
 namespace {
-
-/// Version 1, as programs before the digest wrote it.
-const std::string kOldBase = std::string(FAULTLINE_SOURCE_DIR) + "/tests/cases/earlier_version.cases.db";
 
 class HostileCaseFile : public testing::Test {
  protected:
@@ -38,9 +34,10 @@ class HostileCaseFile : public testing::Test {
     return "it was read";
   }
 
-  void use_old_base() {
-    std::filesystem::copy_file(kOldBase, path_, std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::permissions(path_, std::filesystem::perms::owner_all);
+  /// Makes the digest fit what was changed.
+  void reseal() {
+    SqliteFile file(path_, SqliteMode::change);
+    file.run(("UPDATE identity SET digest = '" + case_tables_digest(file) + "'").c_str());
   }
 
   TemporaryFolder folder_;
@@ -107,27 +104,17 @@ TEST_F(HostileCaseFile, ADeviceIsNoCaseBase) {
   EXPECT_THROW(write_case_base("/dev/null", example_base(1)), Error);
 }
 
-TEST_F(HostileCaseFile, ABaseOfAnEarlierVersionIsReadAndBecomesNewWhenItIsChanged) {
-  use_old_base();
-  const CaseBase old = read_case_base(path_);
-  EXPECT_EQ(old.sha256().substr(0, 8), "6f5469ce") << "the content hash of old bases stays";
-  change_case_base(path_, [](CaseBase&) {});
-  EXPECT_EQ(read_case_base(path_).sha256(), old.sha256());
-  EXPECT_EQ(SqliteFile(path_, SqliteMode::read_only).number("PRAGMA user_version"), 3);
-}
-
-TEST_F(HostileCaseFile, VersionTwoIsReadWithItsDigest) {
-  const std::string content = read_case_base(path_).sha256();
-  for (const char* column : {"log_name", "robot", "person", "date"})
-    run(std::string("ALTER TABLE fault_case DROP COLUMN ") + column);
-  run("ALTER TABLE identity DROP COLUMN robot; ALTER TABLE identity DROP COLUMN axes; PRAGMA user_version = 2");
-  const std::string digest =
-      case_tables_digest(*std::make_unique<SqliteFile>(path_, SqliteMode::read_only), 2);
-  run("UPDATE identity SET digest = '" + digest + "'");
-  EXPECT_EQ(read_case_base(path_).sha256(), content);
-  change_case_base(path_, [](CaseBase& base) { base.confirm(1, {}, "", {"A. Weber", "2026-03-02"}); });
-  EXPECT_EQ(read_case_base(path_).at(1).person, "A. Weber");
-  EXPECT_EQ(SqliteFile(path_, SqliteMode::read_only).number("PRAGMA user_version"), 3);
+TEST_F(HostileCaseFile, ABaseOfAnEarlierVersionIsRefusedWithACureAndStays) {
+  for (const char* version : {"1", "2"}) {
+    run(std::string("PRAGMA user_version = ") + version);
+    const std::string before = read_file(path_);
+    EXPECT_NE(refusal().find(std::string("schema ") + version + " of an earlier program"), std::string::npos)
+        << refusal();
+    EXPECT_NE(refusal().find("learn the model again"), std::string::npos) << refusal();
+    EXPECT_THROW(change_case_base(path_, [](CaseBase&) {}), Error);
+    EXPECT_THROW(write_case_base(path_, example_base(1)), Error);
+    EXPECT_EQ(read_file(path_), before);
+  }
 }
 
 TEST_F(HostileCaseFile, AChangedPersonIsRefused) {
@@ -135,26 +122,29 @@ TEST_F(HostileCaseFile, AChangedPersonIsRefused) {
   EXPECT_NE(refusal().find("does not match its digest"), std::string::npos) << refusal();
 }
 
-TEST_F(HostileCaseFile, LostRowsOfAnEarlierVersion) {
-  use_old_base();
+TEST_F(HostileCaseFile, LostRowsUnderAFittingDigest) {
   run("DELETE FROM fault_case WHERE id = 5");
+  reseal();
   EXPECT_NE(refusal().find("incomplete"), std::string::npos) << refusal();
 }
 
-TEST_F(HostileCaseFile, ForeignWordsOfAnEarlierVersion) {
-  use_old_base();
+TEST_F(HostileCaseFile, ForeignWordsUnderAFittingDigest) {
   run("UPDATE fault_case SET kind = 'rust' WHERE id = 5");
+  reseal();
   EXPECT_NE(refusal().find("rust"), std::string::npos) << refusal();
 }
 
-TEST_F(HostileCaseFile, WildNumbersOfAnEarlierVersion) {
+TEST_F(HostileCaseFile, WildNumbersUnderAFittingDigest) {
   for (const char* change :
        {"UPDATE fault_case SET evidence = 1e308 WHERE id = 5", "UPDATE feature SET scale = 1e308",
         "UPDATE fault_case SET joint = 99 WHERE id = 5", "UPDATE fault_case SET mlp_confidence = -1",
         "UPDATE metric SET near_similarity = 7"}) {
-    use_old_base();
+    std::filesystem::remove(path_);
+    write_case_base(path_, example_base(5));
     run(change);
+    reseal();
     EXPECT_NE(refusal(), "it was read") << change;
+    EXPECT_EQ(refusal().find("does not match its digest"), std::string::npos) << change;
   }
 }
 
