@@ -31,21 +31,11 @@ CaseBase confirmed_of(const CaseBase& base) {
   return confirmed;
 }
 
-/// Sets the robot of a base from an earlier program, which lacks it, from the model if one was named.
-void know_robot(CaseBase& base, const std::string& model) {
-  if (base.robot().axes.empty() && !model.empty()) base.describe_robot(case_robot_of(load_model(model)));
-}
-
 /// Merges the cases; writes nothing if none is new.
 MergedCases merge_into(const CasesArguments& arguments, const CaseBase& other) {
-  const auto merged_with = [&](CaseBase& base) {
-    know_robot(base, arguments.model);
-    return base.merge(other);
-  };
-  CaseBase there = read_case_base(arguments.path());
-  MergedCases merged = merged_with(there);
+  MergedCases merged = read_case_base(arguments.path()).merge(other);
   if (merged.added + merged.updated > 0)
-    change_case_base(arguments.path(), [&](CaseBase& base) { merged = merged_with(base); });
+    change_case_base(arguments.path(), [&](CaseBase& base) { merged = base.merge(other); });
   return merged;
 }
 
@@ -55,12 +45,12 @@ void bind_to_model(CaseBase& imported, const std::string& path) {
   const Model model = load_model(path);
   const CaseRobot robot = case_robot_of(model);
   const std::string& axes = imported.robot().axes;
-  if (!axes.empty() && axes != robot.axes)
+  if (axes != robot.axes)
     throw Error(ErrorCode::usage, path,
                 "is the model of a robot with the axes " + robot.axes +
                     ", but the cases are of a robot with the axes " + axes);
   const std::string seen_on = imported.robot().name;
-  if (!seen_on.empty() && seen_on != robot.name)
+  if (seen_on != robot.name)
     for (Case c : std::vector<Case>(imported.cases())) {
       if (!c.robot.empty()) continue;
       c.robot = seen_on;

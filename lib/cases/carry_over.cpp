@@ -9,20 +9,17 @@
 namespace faultline {
 namespace {
 
-constexpr const char* kUnknownModel = "unknown";  // model of a base without model identity
-
 bool is_revised(const Case& c) {
   return c.outcome != CaseOutcome::confirmed || !(c.label == c.decision) || !c.what_was_done.empty() ||
          !c.person.empty() || !c.date.empty();
 }
 
-/// Returns the case that `learn` made of the same fault of the same log; null if there is none. If the log of
-/// a labelled case is not known, compares the fault alone.
+/// Returns the case that `learn` made of the same fault of the same log; null if there is none.
 const Case* twin_of(const Case& c, const CaseBase& fresh) {
+  if (c.log_sha256.empty()) return nullptr;  // simulated, or recorded by hand
   const auto& cases = fresh.cases();
   const auto found = std::find_if(cases.begin(), cases.end(), [&](const Case& other) {
-    return other.origin == kLabelledOrigin && other.decision == c.label &&
-           (c.log_sha256.empty() ? c.origin == kLabelledOrigin : other.log_sha256 == c.log_sha256);
+    return other.origin == kLabelledOrigin && other.decision == c.label && other.log_sha256 == c.log_sha256;
   });
   return found == cases.end() ? nullptr : &*found;
 }
@@ -41,10 +38,7 @@ std::vector<double> moved_features(const Case& c, const CaseBase& old, const Cas
 }
 
 void mark_as_old(Case& c, const CaseBase& old, const CaseBase& fresh) {
-  if (!c.features_by.empty()) return;
-  if (old.model_identity().empty())
-    c.features_by = kUnknownModel;
-  else if (old.model_identity() != fresh.model_identity())
+  if (c.features_by.empty() && old.model_identity() != fresh.model_identity())
     c.features_by = old.model_identity();
 }
 

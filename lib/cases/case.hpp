@@ -37,12 +37,12 @@ struct Case {
   CaseOutcome outcome = CaseOutcome::unconfirmed;
   std::string what_was_done;  ///< by the technician
   std::string origin;         ///< kSimulatedOrigin, kLabelledOrigin, a log's name, an import
-  std::string log_sha256;     ///< SHA-256 of the log of the episode; empty if not known
+  std::string log_sha256;     ///< SHA-256 of the log of the episode; empty if there is none
   double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< in that log; NaN if not known
   /// Identity of the other model that computed the features; empty: the model of the base.
   std::string features_by;
   std::string log_name;  ///< file name of a labelled log; that of a diagnosed log is in `origin`
-  std::string robot;     ///< robot of the episode; empty: the robot of the base, or not known
+  std::string robot;     ///< robot of the episode; empty: the robot of the base
   std::string person;    ///< who added the case or last gave its label; empty if not known
   std::string date;      ///< when the person did, YYYY-MM-DD; empty if not known
 };

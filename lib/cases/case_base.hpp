@@ -10,7 +10,7 @@
 
 namespace faultline {
 
-/// The robot of a base; both texts are empty in bases of early programs.
+/// The robot of a base.
 struct CaseRobot {
   std::string name{};
   std::string axes{};  ///< base to tip, R turns and P slides, such as "RRP"
@@ -69,8 +69,8 @@ class CaseBase {
   /// Hash of metric, robot and cases, the same on every machine, whatever file or export they came from.
   std::string sha256() const;
 
-  /// Identity of the model that the base was learned with; empty in bases of early programs. It is not part
-  /// of the content.
+  /// Identity of the model that the base was learned with; empty until belong_to() sets it. It is not part of
+  /// the content.
   const std::string& model_identity() const { return model_identity_; }
   /// Sets the identity of the model; marks cases whose features another known model computed (features_by).
   void belong_to(const std::string& model_identity);

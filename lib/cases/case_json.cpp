@@ -178,11 +178,12 @@ nlohmann::ordered_json to_json(const CaseBase& base, const Case& c) {
 }
 
 std::string to_cases_json(const CaseBase& base) {
-  Json json = {{"schema", kSchema}, {"near_similarity", number_or_null(base.metric().near_similarity)}};
-  if (!base.model_identity().empty()) json["model_identity"] = base.model_identity();
-  if (!base.robot().name.empty()) json["robot"] = base.robot().name;
-  if (!base.robot().axes.empty()) json["axes"] = base.robot().axes;
-  json["features"] = Json::array();
+  Json json = {{"schema", kSchema},
+               {"near_similarity", number_or_null(base.metric().near_similarity)},
+               {"model_identity", base.model_identity()},
+               {"robot", base.robot().name},
+               {"axes", base.robot().axes},
+               {"features", Json::array()}};
   for (const Feature& f : base.metric().features)
     json["features"].push_back({{"name", f.name}, {"scale", f.scale}, {"weight", f.weight}});
   json["cases"] = Json::array();
@@ -198,8 +199,8 @@ CaseBase from_cases_json(const std::string& text, const std::string& where) try 
   for (const Json& c : json.at("cases"))
     cases.push_back(case_number(std::ssize(cases) + 1, c, metric.features));
   CaseBase base(std::move(metric), std::move(cases));
-  base.belong_to(json.value("model_identity", ""));
-  base.describe_robot({json.value("robot", ""), json.value("axes", "")});
+  base.belong_to(json.at("model_identity").get<std::string>());
+  base.describe_robot({json.at("robot").get<std::string>(), json.at("axes").get<std::string>()});
   return base;
 } catch (const nlohmann::json::exception& error) {
   throw Error(ErrorCode::input, where, "is not an export of a case base: " + json_problem(error, text));

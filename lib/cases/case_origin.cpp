@@ -33,9 +33,7 @@ std::string revision_words(const Case& c) {
 
 std::string learned_words(const Case& c) {
   if (c.origin == kLabelledOrigin) {
-    const std::string robot = c.robot.empty() ? "" : ", robot " + c.robot;
-    return c.log_name.empty() ? "a labelled log, name not recorded" + robot
-                              : "labelled log " + c.log_name + robot;
+    return "labelled log " + c.log_name + (c.robot.empty() ? "" : ", robot " + c.robot);
   }
   if (!c.robot.empty()) return "simulated with the model of robot " + c.robot;
   return c.features_by.empty() ? "simulated with the robot's model" : "simulated with another model";

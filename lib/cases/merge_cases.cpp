@@ -14,16 +14,10 @@ namespace {
 
 void check_kind(const CaseBase& base, const CaseBase& other) {
   const std::string &axes = base.robot().axes, &others = other.robot().axes;
-  if (!axes.empty() && !others.empty() && axes != others)
+  if (axes != others)
     throw Error(ErrorCode::usage, "case base",
                 "the cases to be added are of a robot with the axes " + others + ", those here of one with " +
                     axes + "; only cases of the same kind of robot can be compared");
-  const int joints = joints_of(base), there = joints_of(other);
-  if (joints > 0 && there > 0 && joints != there)
-    throw Error(ErrorCode::usage, "case base",
-                "the cases to be added are of a robot with " + std::to_string(there) +
-                    " joints, those here of one with " + std::to_string(joints) +
-                    "; only cases of the same kind of robot can be compared");
   if (base.feature_names() != other.feature_names())
     throw Error(ErrorCode::input, "case base",
                 "the cases to be added have other features; they come from another robot, another meaning of "

@@ -11,19 +11,18 @@
 namespace faultline {
 namespace {
 
-constexpr const char* kOfLabel = "behind ";        // prefix of the feature of each hypothesis
-constexpr const char* kOfJoint = "mlp residual ";  // prefix of the feature of each joint
+constexpr const char* kOfLabel = "behind ";  // prefix of the feature of each hypothesis
 
 [[noreturn]] void refuse_label(const std::string& where, const std::string& message) {
   throw Error(ErrorCode::usage, where, message);
 }
 
-bool begins(const Feature& feature, const char* prefix) { return feature.name.starts_with(prefix); }
-
+/// Whether the base's model has the label as a hypothesis. A model without mechanics has no hypotheses and
+/// excludes none.
 bool is_compared(const CaseBase& base, const FaultLabel& label) {
   const auto& features = base.metric().features;
   return std::none_of(features.begin(), features.end(),
-                      [](const Feature& f) { return begins(f, kOfLabel); }) ||
+                      [](const Feature& f) { return f.name.starts_with(kOfLabel); }) ||
          std::any_of(features.begin(), features.end(),
                      [&](const Feature& f) { return f.name == kOfLabel + label_text(label); });
 }
@@ -35,15 +34,10 @@ bool has_case_of(const CaseBase& base, FaultKind kind) {
 
 }  // namespace
 
-int joints_of(const CaseBase& base) {
-  if (!base.robot().axes.empty()) return static_cast<int>(base.robot().axes.size());
-  const auto& features = base.metric().features;
-  return static_cast<int>(
-      std::count_if(features.begin(), features.end(), [](const Feature& f) { return begins(f, kOfJoint); }));
-}
+int joints_of(const CaseBase& base) { return static_cast<int>(base.robot().axes.size()); }
 
 void check_joint(int joints, const FaultLabel& label, const std::string& where) {
-  if (joints > 0 && label.joint > joints)
+  if (label.joint > joints)
     refuse_label(where, "is a fault of joint " + std::to_string(label.joint) + ", but the robot has " +
                             counted(joints, "joint"));
 }

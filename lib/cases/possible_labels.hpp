@@ -7,11 +7,10 @@
 
 namespace faultline {
 
-/// Returns the number of joints of the base's robot, from its axes or from the features; 0 if unknown.
+/// Returns the number of joints of the base's robot.
 int joints_of(const CaseBase& base);
 
-/// Throws Error(usage) with `where` if a robot with `joints` joints does not have the label's joint; 0
-/// joints: not known, no check.
+/// Throws Error(usage) with `where` if a robot with `joints` joints does not have the label's joint.
 void check_joint(int joints, const FaultLabel& label, const std::string& where);
 
 /// As check_joint(); also checks that the label has a joint if its kind is a fault of a joint, and only then.

@@ -10,9 +10,7 @@ namespace {
 
 constexpr std::size_t kIdentityLength = 32;
 
-std::string name_of(const std::string& identity) {
-  return identity.empty() ? "none" : identity.substr(0, kIdentityLength);
-}
+std::string name_of(const std::string& identity) { return identity.substr(0, kIdentityLength); }
 
 }  // namespace
 

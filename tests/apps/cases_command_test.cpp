@@ -17,7 +17,11 @@ namespace {
 
 class CasesCommand : public testing::Test {
  protected:
-  CasesCommand() { write_case_base(path_, example_base(2)); }
+  CasesCommand() {
+    CaseBase base = example_base(2);
+    base.describe_robot({"bench", "RRP"});
+    write_case_base(path_, base);
+  }
 
   ProgramRun cases(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "cases");

@@ -135,8 +135,8 @@ TEST_F(ModelCommand, LearningAgainKeepsWhatPeopleConfirmedAndSaysSo) {
 
 TEST_F(ModelCommand, LearningIsRefusedWhereItWouldLoseCases) {
   EXPECT_EQ(cases({"add", "--fault", "locked", "--joint", "3"}).status, 2) << "the robot has one joint";
-  change_case_base(base_, [](CaseBase& base) {  // as earlier programs let people do
-    base.describe_robot({});
+  change_case_base(base_, [](CaseBase& base) {
+    base.describe_robot({"gantry", "PPR"});
     Case c;
     c.decision = c.label = {FaultKind::locked, 3};
     c.origin = kByHandOrigin;

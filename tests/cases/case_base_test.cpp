@@ -107,17 +107,19 @@ TEST(CaseBase, ContentHashSeesEveryField) {
 }
 
 TEST(CaseBase, MergeAddsOnlyWhatIsNew) {
-  CaseBase base = example_base(2), other = example_base(3);
+  CaseBase base = example_base(2), other = example_base(3), of_others({"a", "b"});
+  for (CaseBase* each : {&base, &other, &of_others}) each->describe_robot({"bench", "RRP"});
   EXPECT_EQ(base.merge(other).added, 3);
   EXPECT_EQ(base.cases().size(), 9u);
   EXPECT_EQ(base.merge(other).added, 0);
-  EXPECT_THROW(base.merge(CaseBase({"a", "b"})), Error);
+  EXPECT_THROW(base.merge(of_others), Error);
 }
 
 TEST(CaseBase, MergeMarksTheFeaturesOfAnotherModel) {
   CaseBase base = example_base(2), other = example_base(3);
   base.belong_to("one");
   other.belong_to("two");
+  for (CaseBase* each : {&base, &other}) each->describe_robot({"bench", "RRP"});
   EXPECT_EQ(base.merge(other).added, 9);
   EXPECT_EQ(base.cases().back().features_by, "two");
   EXPECT_EQ(base.cases().front().features_by, "");

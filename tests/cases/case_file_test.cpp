@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "lib/cases/case_json.hpp"
@@ -276,6 +277,11 @@ TEST_F(CaseFile, ImportsThatAreNone) {
   EXPECT_THROW(from_cases_json("", "x"), Error);
   EXPECT_THROW(from_cases_json("{\"schema\": \"other/1\"}", "x"), Error);
   EXPECT_THROW(from_cases_json("{\"schema\": \"faultline/cases/1\"}", "x"), Error);
+  for (const char* member : {"model_identity", "robot", "axes"}) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(to_cases_json(example_base(1)));
+    json.erase(member);
+    EXPECT_THROW(from_cases_json(json.dump(), "x"), Error) << member;
+  }
   std::string text = to_cases_json(example_base(1));
   text.replace(text.find("\"outcome\": \"confirmed\""), 22, "\"outcome\": \"maybe\"");
   EXPECT_THROW(from_cases_json(text, "x"), Error);

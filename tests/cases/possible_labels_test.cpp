@@ -20,16 +20,24 @@ std::string refusal(const CaseBase& base, const FaultLabel& label) {
 }
 
 CaseBase base_of_bank() {
-  return CaseBase(
+  CaseBase base(
       {"behind locked 1", "behind locked 2", "behind payload_change 2", "mlp residual 1", "mlp residual 2"});
+  base.describe_robot({"bench", "RR"});
+  return base;
 }
 
-TEST(PossibleLabels, JointsAreKnownByTheAxesOrByTheFeatures) {
+TEST(PossibleLabels, JointsAreKnownByTheAxes) {
   EXPECT_EQ(joints_of(base_of_bank()), 2);
-  EXPECT_EQ(joints_of(CaseBase({"a"})), 0);
   CaseBase base({"a"});
   base.describe_robot({"bench", "RRPR"});
   EXPECT_EQ(joints_of(base), 4);
+}
+
+TEST(PossibleLabels, AModelWithoutHypothesesExcludesNoFaultOfAJointThatIsThere) {
+  CaseBase base;
+  base.describe_robot({"slide", "P"});
+  EXPECT_EQ(refusal(base, {FaultKind::locked, 1}), "");
+  EXPECT_NE(refusal(base, {FaultKind::locked, 2}).find("has 1 joint"), std::string::npos);
 }
 
 TEST(PossibleLabels, AJointThatTheRobotHasNotIsRefused) {
