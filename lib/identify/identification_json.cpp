@@ -62,8 +62,8 @@ IdentifiedLog log_from(const Json& j) {
           j.at("rows_used"),
           number_or_nan(j.at("sample_period_s")),
           number_or_nan(j.at("payload_kg")),
-          j.contains("fit_r2") ? numbers_or_nan(j.at("fit_r2")) : std::vector<double>{},
-          j.value("left_out", false)};
+          numbers_or_nan(j.at("fit_r2")),
+          j.at("left_out")};
 }
 
 Json term_json(const ModelTerm& t) {
@@ -218,9 +218,7 @@ void add_verdicts(const Identification& id, Json& document) {
   document["trend"] = list_of<Json>(id.trends, trend_json);
 }
 
-/// Reads them; documents of older versions have none.
 void read_verdicts(const Json& document, Identification& id) {
-  if (!document.contains("excitation")) return;
   for (const Json& p : document.at("residual_repeats_with")) id.residual_patterns.push_back(pattern_from(p));
   id.excitation = excitation_from(document.at("excitation"));
   for (const Json& t : document.at("trend")) id.trends.push_back(trend_from(t));
@@ -250,29 +248,12 @@ Identification read_summary(const Json& j, const std::string& where) {
   id.condition_number = number_or_nan(j.at("condition_number"));
   id.residual_rms = numbers_or_nan(j.at("residual_rms"));
   id.fit_r2 = numbers_or_nan(j.at("fit_r2"));
-  if (j.contains("held_out_r2")) {
-    id.held_out_r2 = numbers_or_nan(j.at("held_out_r2"));
-    for (const Json& term : j.at("terms")) id.terms.push_back(term_from(term));
-    id.torque_delay_s = numbers_or_nan(j.at("torque_delay_s"));
-    id.between_logs_std = numbers_or_nan(j.at("between_logs_std"));
-  }
+  id.held_out_r2 = numbers_or_nan(j.at("held_out_r2"));
+  for (const Json& term : j.at("terms")) id.terms.push_back(term_from(term));
+  id.torque_delay_s = numbers_or_nan(j.at("torque_delay_s"));
+  id.between_logs_std = numbers_or_nan(j.at("between_logs_std"));
   for (const Json& log : j.at("logs")) id.logs.push_back(log_from(log));
   return id;
-}
-
-/// Inserts zeros for bent and skew friction into the state of an older version without them.
-void add_bends(const ParameterSpace& space, std::vector<double>& estimate, std::vector<double>& covariance) {
-  const Eigen::Index at = space.bend(0), more = 2 * space.joints(), rest = space.count() - at - more;
-  const auto old = static_cast<Eigen::Index>(estimate.size());
-  if (static_cast<Eigen::Index>(covariance.size()) != old * old) return;
-  const Eigen::MatrixXd before = Eigen::Map<const Eigen::MatrixXd>(covariance.data(), old, old);
-  Eigen::MatrixXd after = Eigen::MatrixXd::Zero(space.count(), space.count());
-  after.topLeftCorner(at, at) = before.topLeftCorner(at, at);
-  after.topRightCorner(at, rest) = before.topRightCorner(at, rest);
-  after.bottomLeftCorner(rest, at) = before.bottomLeftCorner(rest, at);
-  after.bottomRightCorner(rest, rest) = before.bottomRightCorner(rest, rest);
-  covariance.assign(after.data(), after.data() + after.size());
-  estimate.insert(estimate.begin() + at, static_cast<std::size_t>(more), 0.0);
 }
 
 Identification read(const Json& j, const std::string& where) {
@@ -282,11 +263,10 @@ Identification read(const Json& j, const std::string& where) {
   id.robot = robot_from_toml(state.at("robot_file").get<std::string>(), where);
   id.space = parameter_space(id.robot);
   id.space.extra.clear();
-  for (const Json& term : state.value("extra", Json::array()))
-    id.space.extra.push_back(extra_from(term, id.robot, where));
-  auto estimate = numbers_or_nan(state.at("estimate")), covariance = numbers_or_nan(state.at("covariance"));
+  for (const Json& term : state.at("extra")) id.space.extra.push_back(extra_from(term, id.robot, where));
+  const auto estimate = numbers_or_nan(state.at("estimate")),
+             covariance = numbers_or_nan(state.at("covariance"));
   const auto count = static_cast<std::size_t>(id.space.count());
-  if (estimate.size() + 2 * id.space.joints() == count) add_bends(id.space, estimate, covariance);
   if (estimate.size() != count || covariance.size() != count * count)
     throw Error(ErrorCode::input, where,
                 fmt::format("holds {} parameters, its robot has {}; identify again", estimate.size(), count));

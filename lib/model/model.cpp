@@ -62,14 +62,13 @@ Validation validation_from_json(const nlohmann::json& json) {
                                row.at("right_kind"), row.at("right_joint"), row.at("right_kind_and_joint"),
                                row.at("right_or_named"), number_or_nan(row.at("median_delay_s")),
                                number_or_nan(row.at("p90_delay_s"))});
-  if (json.contains("reach"))
-    for (const auto& each : json["reach"])
-      validation.reach.push_back({{fault_kind_from(each.at("kind")), each.at("joint")},
-                                  each.at("runs"),
-                                  each.at("found"),
-                                  number_or_nan(each.at("size")),
-                                  number_or_nan(each.at("least_size")),
-                                  number_or_nan(each.at("median_delay_s"))});
+  for (const auto& each : json.at("reach"))
+    validation.reach.push_back({{fault_kind_from(each.at("kind")), each.at("joint")},
+                                each.at("runs"),
+                                each.at("found"),
+                                number_or_nan(each.at("size")),
+                                number_or_nan(each.at("least_size")),
+                                number_or_nan(each.at("median_delay_s"))});
   validation.early_alarms = json.at("early_alarms");
   validation.healthy_hours = json.at("healthy_hours");
   validation.false_alarms = json.at("false_alarms");
@@ -166,7 +165,7 @@ ConfidenceCalibration calibration_from_json(const nlohmann::json& json) {
 
 /// Reads the identity of the model, its edits and its doubts.
 void read_origin(const nlohmann::json& json, Model& model) {
-  model.identity = json.value("identity", "");
+  model.identity = json.at("identity").get<std::string>();
   model.doubts = json.value("doubts", std::vector<std::string>{});
   model.grave_doubts = json.value("grave_doubts", std::vector<std::string>{});
   if (json.contains("edited"))
@@ -179,8 +178,6 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   model.name = json.at("name").get<std::string>();
   model.robot = robot_from_toml(json.at("robot").get<std::string>(), where + ", robot");
   check_robot_ranges(model.robot, where);
-  if (json.contains("identification"))
-    model.identification = summary_from_json(nlohmann::ordered_json(json["identification"]), where);
   read_origin(json, model);
   model.sample_period_s = json.at("sample_period_s");
   model.has_velocity = json.at("has_velocity");
@@ -194,6 +191,7 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
                   "is a damaged model (it has no relations to judge a log by); learn it again");
     return model;
   }
+  model.identification = summary_from_json(nlohmann::ordered_json(json.at("identification")), where);
   model.motion = usual_motion_from_json(json.at("motion"), model.robot.joints(), where);
   model.explain = explain_model_from_json(json.at("explain"), where);
   model.labels = labels_of(model.robot);
@@ -202,7 +200,7 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   model.confidence = calibration_from_json(json.at("confidence"));
   model.samples = samples_from_json(json.at("samples"), where);
   model.validation = validation_from_json(json.at("validation"));
-  if (json.contains("twin")) model.twin = twin_from_json(nlohmann::ordered_json(json["twin"]), where);
+  model.twin = twin_from_json(nlohmann::ordered_json(json.at("twin")), where);
   return model;
 }
 
@@ -210,7 +208,7 @@ void add_mechanics(const Model& model, nlohmann::ordered_json& json) {
   nlohmann::json residual, judges;
   to_json(residual, model.residual);
   to_json(judges, model.episode_classifier);
-  if (model.twin) json["twin"] = twin_to_json(*model.twin);
+  json["twin"] = twin_to_json(model.twin);
   json["validation"] = validation_to_json(model.validation);
   json["explain"] = explain_model_to_json(model.explain);
   json["motion"] = usual_motion_to_json(model.motion);
@@ -226,11 +224,10 @@ std::string model_to_json(const Model& model) {
   nlohmann::ordered_json json;
   json["schema"] = model_schema(kModelVersion);
   json["name"] = model.name;
-  if (!model.identity.empty()) json["identity"] = model.identity;
+  if (!model.identity.empty()) json["identity"] = model.identity;  // bind_cases() hashes the text without
   if (!model.has_mechanics()) json["learned_from"] = kLearnedFromTracking;
   json["robot"] = robot_file_text(model.robot);
-  if (model.identification.status != IdentificationStatus::not_run)
-    json["identification"] = summary_to_json(model.identification);
+  if (model.has_mechanics()) json["identification"] = summary_to_json(model.identification);
   if (!model.doubts.empty()) json["doubts"] = model.doubts;
   if (!model.grave_doubts.empty()) json["grave_doubts"] = model.grave_doubts;
   json["sample_period_s"] = model.sample_period_s;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,7 +86,7 @@ struct Model {
   std::string name;
   Robot robot;  ///< identified
   /// Quality of the identification, with intervals; without robot, estimate, covariance and logs. `not_run`
-  /// in models of early programs.
+  /// without mechanics.
   Identification identification;
   double sample_period_s = 0.0;    ///< usual sample period of the training logs
   bool has_velocity = true;        ///< whether these logs have dq
@@ -101,10 +100,10 @@ struct Model {
   SampleMode samples;
   Validation validation;
   std::vector<ModelSource> sources;
-  std::optional<TwinOptions> twin;  ///< distribution of the training runs; empty in models of early programs
-  std::string sha256;               ///< of the file that it was read from
-  /// Identity that binds the case base to the model (bind_cases()); empty in models of early programs. An
-  /// edit of the model does not change it.
+  TwinOptions twin;    ///< distribution of the training runs
+  std::string sha256;  ///< of the file that it was read from
+  /// Identity that binds the case base to the model; empty until bind_cases() sets it. An edit of the model
+  /// does not change it.
   std::string identity;
   std::vector<ModelEdit> edits;
   std::vector<std::string> doubts;        ///< reasons against trusting the model; each diagnosis reports them
@@ -119,7 +118,7 @@ std::vector<FaultLabel> labels_of(const Robot& robot);
 
 /// Returns the model as a JSON file, schema "faultline/model/4", with the digest of its content.
 std::string model_to_json(const Model& model);
-/// Throws Error(input) if the text is no model, is cut, damaged or edited without a signature, has a newer
+/// Throws Error(input) if the text is no model, is cut, damaged or edited without a signature, has another
 /// schema or a number beyond its range, or does not fit together.
 Model model_from_json(const std::string& text, const std::string& where);
 /// Throws Error(input).

@@ -89,7 +89,6 @@ std::string signed_model_text(const std::string& text, const std::string& why, c
   if (digest_fits(text)) return text;
   const Json edit = {{"digest_before", digest_in(json)}, {"why", valid_utf8(why)}};
   json.erase("digest");
-  json["schema"] = model_schema(kModelVersion);
   if (!json["edited"].is_array()) json["edited"] = Json::array();
   json["edited"].push_back(edit);
   return sealed_model_text(json);

@@ -66,9 +66,12 @@ TEST(Identification, JsonGivesBackTheSameValueBitForBit) {
 }
 
 TEST(Identification, AnotherSchemaAndACutDocumentAreRefused) {
-  auto document = to_json(identified());
-  document.erase("state");
-  EXPECT_THROW(identification_from_json(document, "test"), Error);
+  nlohmann::ordered_json document;
+  for (const char* member : {"held_out_r2", "excitation", "trend", "state"}) {
+    document = to_json(identified());
+    document.erase(member);
+    EXPECT_THROW(identification_from_json(document, "test"), Error) << member;
+  }
   document = to_json(identified());
   document["schema"] = "faultline/identification/2";
   EXPECT_THROW(identification_from_json(document, "test"), Error);

@@ -71,6 +71,17 @@ TEST(ModelDamage, NoMarkOfTheDigestCanBeTakenAway) {
   EXPECT_NE(refusal(text).find("learn the model again"), std::string::npos) << "an older version";
 }
 
+TEST(ModelDamage, AModelWithoutAMemberIsRefusedByItsName) {
+  for (const char* member :
+       {"identity", "identification", "twin", "explain", "motion", "residual", "judges", "confidence"}) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(model_text());
+    json.erase(member);
+    const std::string why = refusal(resealed_model_text(json));
+    EXPECT_NE(why.find(member), std::string::npos) << why;
+    EXPECT_NE(why.find("learn it again"), std::string::npos) << why;
+  }
+}
+
 TEST(ModelDamage, EveryNumberHasARangeThatRefusesAWildOne) {
   nlohmann::ordered_json json =
       nlohmann::ordered_json::parse(resealed_model_text(nlohmann::ordered_json::parse(model_text())));

@@ -71,7 +71,7 @@ TwinOptions twin_from_json(const Json& json, const std::string& where) {
     visit_twin_fields(options, [&](const char* key, auto& value, const char*) { read(json.at(key), value); });
     for (int k = 0; k < kFaultKinds; ++k) {
       const FaultKind kind = static_cast<FaultKind>(k);
-      if (has_size(kind) && json.at("faults").contains(to_string(kind)))
+      if (has_size(kind))
         read_fault(json.at("faults").at(to_string(kind)), describe(kind), options.faults[k]);
     }
   } catch (const Json::exception& error) {

@@ -82,8 +82,8 @@ SignalRelation relation_from_json(const nlohmann::json& json, const std::string&
   relation.target = quantity_from(json.at("target"), where);
   for (const auto& input : json.at("inputs")) relation.inputs.push_back(quantity_from(input, where));
   relation.lags = json.at("lags");
-  relation.stride = json.value("stride", 1);
-  relation.rate_limit = json.value("rate_limit", 0.0);
+  relation.stride = json.at("stride");
+  relation.rate_limit = json.at("rate_limit");
   relation.period_s = json.at("period_s");
   relation.weights = json.at("weights").get<std::vector<double>>();
   relation.low = json.at("low");
