@@ -99,7 +99,7 @@ BatchRow row_from_json(const std::string& line) {
   row.residual_peak = numbers_or_nan(json.at("residual_peak"));
   row.condition = parameters_from(json.at("condition"));
   row.parameters = parameters_from(json.at("parameters"));
-  if (json.contains("doubt")) row.doubt = text_or_empty(json["doubt"]);
+  row.doubt = text_or_empty(json.at("doubt"));
   return row;
 }
 

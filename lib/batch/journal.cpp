@@ -48,7 +48,7 @@ std::optional<JournalEntry> entry_from(const std::string& line) {
     return JournalEntry{json.at("key"), json.at("position"), json.at("json_sha"), json.at("html_sha"),
                         row_from_json(json.at("row").get<std::string>())};
   } catch (const std::exception&) {
-    return {};  // of another version of the program
+    return {};  // not of this program: the log is done again
   }
 }
 

@@ -101,8 +101,9 @@ GoldenLog log(const TomlTable& table, int joints) {
 
 std::vector<ParameterValue> values(const TomlTable& table, const std::string& key) {
   std::vector<ParameterValue> read;
+  if (!table.is_array(key)) table.fail(key, "expected a list of values, [] for none");
   for (const TomlTable& one : table.tables(key))
-    read.push_back({one.text("name"), one.any_number("value"), one.any_number("std"), one.text("unit", "")});
+    read.push_back({one.text("name"), one.any_number("value"), one.any_number("std"), one.text("unit")});
   return read;
 }
 
@@ -144,7 +145,7 @@ GoldenSet read(const TomlTable& table) {
   set.model = {inner_path(model, "file"), model.text("sha256")};
   set.cases = {inner_path(model, "cases"), model.text("cases_sha256")};
   std::set<std::string> names;
-  if (model.has("values")) set.model_values = values(model, "values");
+  set.model_values = values(model, "values");
   for (const ParameterValue& value : set.model_values) names.insert(value.name);
   set.tolerances = tolerances(table.table("tolerance"), names);
   read_length_rule(table, set.tolerances);

@@ -69,12 +69,15 @@ ObservedIdentification identification(const Json& json) {
 
 GoldenRun run(const Json& json, const std::string& where) {
   if (json.at("schema") != "faultline/golden-check/1")
-    throw Error(ErrorCode::input, where, "has another schema; expected faultline/golden-check/1");
+    throw Error(
+        ErrorCode::input, where,
+        "has another schema, this program reads faultline/golden-check/1; write it again with faultline golden "
+        "check --json");
   GoldenRun read;
   read.program_version = json.at("program").at("version");
   const Json& model = json.at("model");
   read.model = {model.at("name"), model.at("sha256"), model.at("cases_sha256")};
-  if (model.contains("values")) read.model_values = values(model.at("values"));
+  read.model_values = values(model.at("values"));
   for (const Json& one : json.at("logs")) read.logs.push_back(log(one, where));
   if (!json.at("identification").is_null()) read.identification = identification(json.at("identification"));
   return read;

@@ -141,5 +141,19 @@ TEST(BatchFacts, ComeBackFromTheirFileAndOtherSettingsDiffer) {
   EXPECT_THROW(read_facts(folder.write("cut.json", facts_to_json(facts()).substr(0, 40))), Error);
 }
 
+TEST(BatchFacts, OfAnotherSchemaAreRefusedWithACure) {
+  const TemporaryFolder folder;
+  std::string text = facts_to_json(facts());
+  text.replace(text.find("faultline/batch/2"), 17, "faultline/batch/1");
+  try {
+    read_facts(folder.write("finished.json", text));
+    FAIL() << "they were read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::input);
+    EXPECT_NE(error.message().find("another schema"), std::string::npos) << error.message();
+    EXPECT_NE(error.message().find("run the batch again"), std::string::npos) << error.message();
+  }
+}
+
 }  // namespace
 }  // namespace faultline

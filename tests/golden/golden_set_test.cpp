@@ -102,6 +102,8 @@ TEST(GoldenSet, MistakesAreNamed) {
       {"rows = 10", "rows = -10", "rows"},
       {"confidence = 0.9", "confidence = \"high\"", "confidence"},
       {"trace_points = 500", "trace_points = 0", "trace_points"},
+      {"\nvalues = [", "\nmore = [", "values"},
+      {", unit = \"kg\"", "", "unit"},
   };
   for (const Mistake& mistake : mistakes) {
     std::string text = golden_text(example());
