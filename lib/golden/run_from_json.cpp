@@ -71,8 +71,8 @@ GoldenRun run(const Json& json, const std::string& where) {
   if (json.at("schema") != "faultline/golden-check/1")
     throw Error(
         ErrorCode::input, where,
-        "has another schema, this program reads faultline/golden-check/1; write it again with faultline golden "
-        "check --json");
+        "has another schema, this program reads faultline/golden-check/1; write it again with faultline "
+        "golden check --json");
   GoldenRun read;
   read.program_version = json.at("program").at("version");
   const Json& model = json.at("model");
