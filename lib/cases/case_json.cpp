@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kSchema = "faultline/cases/1";
 
 constexpr std::size_t kLongestJsonWord = 24;
-constexpr int kNumberOverflow = 406;  // error number of nlohmann::json
+constexpr int kMissingMember = 403, kNumberOverflow = 406;  // error numbers of nlohmann::json
 
 Json label_json(const FaultLabel& label) { return {{"kind", to_string(label.kind)}, {"joint", label.joint}}; }
 
@@ -111,7 +111,8 @@ std::string plain(const std::string& message) {
 }
 
 /// Describes an error in a JSON text for a person: line and column of a syntax error, a number that is too
-/// large, or what a value was expected to be. `error` is the exception of nlohmann::json for the text.
+/// large, a member that is missing, or what a value was expected to be. `error` is the exception of
+/// nlohmann::json for the text.
 std::string json_problem(const std::exception& error, std::string_view text) {
   if (const auto* no_json = dynamic_cast<const nlohmann::json::parse_error*>(&error))
     return place_words(text, no_json->byte);
@@ -126,6 +127,7 @@ std::string json_problem(const std::exception& error, std::string_view text) {
            " is larger than the largest number that can be stored; write a finite one, or null for an "
            "unknown one";
   }
+  if (beyond && beyond->id == kMissingMember) return message + "; export the cases again";
   return message;
 }
 

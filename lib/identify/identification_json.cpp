@@ -227,7 +227,8 @@ void read_verdicts(const Json& document, Identification& id) {
 template <typename Enum>
 Enum enum_from(const std::string& name, std::initializer_list<Enum> all, const std::string& where) {
   if (const auto found = enum_named(name, all)) return *found;
-  throw Error(ErrorCode::input, where, fmt::format("\"{}\" is no status or method of this version", name));
+  throw Error(ErrorCode::input, where,
+              fmt::format("\"{}\" is no status or method of this version; identify again", name));
 }
 
 Identification read_summary(const Json& j, const std::string& where) {

@@ -277,14 +277,24 @@ TEST_F(CaseFile, ImportsThatAreNone) {
   EXPECT_THROW(from_cases_json("", "x"), Error);
   EXPECT_THROW(from_cases_json("{\"schema\": \"other/1\"}", "x"), Error);
   EXPECT_THROW(from_cases_json("{\"schema\": \"faultline/cases/1\"}", "x"), Error);
-  for (const char* member : {"model_identity", "robot", "axes"}) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::parse(to_cases_json(example_base(1)));
-    json.erase(member);
-    EXPECT_THROW(from_cases_json(json.dump(), "x"), Error) << member;
-  }
   std::string text = to_cases_json(example_base(1));
   text.replace(text.find("\"outcome\": \"confirmed\""), 22, "\"outcome\": \"maybe\"");
   EXPECT_THROW(from_cases_json(text, "x"), Error);
+}
+
+TEST_F(CaseFile, AnExportWithoutRobotOrIdentityIsRefusedWithACure) {
+  for (const char* member : {"model_identity", "robot", "axes"}) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(to_cases_json(example_base(1)));
+    json.erase(member);
+    try {
+      from_cases_json(json.dump(), "x");
+      ADD_FAILURE() << "it was read without " << member;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::input);
+      EXPECT_NE(error.message().find(member), std::string::npos) << error.message();
+      EXPECT_NE(error.message().find("export the cases again"), std::string::npos) << error.message();
+    }
+  }
 }
 
 TEST_F(CaseFile, ANumberThatIsNoneInAnImportIsNamedWithItsPlace) {
