@@ -4,20 +4,13 @@
 #include <algorithm>
 #include <iterator>
 
-#include "formats/csv/csv_reader.hpp"
-#include "formats/csv/csv_writer.hpp"
-#include "formats/hdf5/hdf5_reader.hpp"
-#include "formats/hdf5/hdf5_writer.hpp"
-#include "formats/matlab/matlab_reader.hpp"
-#include "formats/matlab/matlab_writer.hpp"
-#include "formats/mcap/mcap_source.hpp"
-#include "formats/mcap/mcap_writer.hpp"
-#include "formats/native/native_reader.hpp"
-#include "formats/native/native_writer.hpp"
-#include "formats/numpy/npz_writer.hpp"
-#include "formats/numpy/numpy_reader.hpp"
-#include "formats/rosbag/rosbag1_source.hpp"
-#include "formats/rosbag/rosbag2_source.hpp"
+#include "formats/csv/csv_format.hpp"
+#include "formats/hdf5/hdf5_format.hpp"
+#include "formats/matlab/matlab_format.hpp"
+#include "formats/mcap/mcap_format.hpp"
+#include "formats/native/native_format.hpp"
+#include "formats/numpy/numpy_format.hpp"
+#include "formats/rosbag/rosbag_format.hpp"
 
 namespace faultline {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv/csv_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "formats/byte_source.hpp"
 #include "formats/csv/csv_dialect.hpp"
 #include "formats/csv/csv_fields.hpp"
+#include "formats/csv/csv_format.hpp"
 #include "formats/csv/csv_issues.hpp"
 #include "formats/csv/csv_row.hpp"
 #include "formats/csv/number.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv/csv_writer.hpp"
-
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
@@ -8,6 +6,7 @@
 #include <iterator>
 
 #include "formats/channel_list.hpp"
+#include "formats/csv/csv_format.hpp"
 #include "formats/csv/csv_provenance.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/csv_cell.hpp"

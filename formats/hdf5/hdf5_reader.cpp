@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/hdf5/hdf5_reader.hpp"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -20,6 +18,7 @@
 #include "formats/arrays/array_reader.hpp"
 #include "formats/arrays/array_table.hpp"
 #include "formats/hdf5/hdf5_dataset.hpp"
+#include "formats/hdf5/hdf5_format.hpp"
 #include "formats/hdf5/hdf5_library.hpp"
 #include "formats/hdf5/hdf5_tree.hpp"
 #include "lib/core/error.hpp"

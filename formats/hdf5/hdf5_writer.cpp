@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "formats/hdf5/hdf5_writer.hpp"
-
 #include <algorithm>
 #include <cerrno>
 #include <optional>
 
 #include "formats/arrays/written_arrays.hpp"
+#include "formats/hdf5/hdf5_format.hpp"
 #include "formats/hdf5/hdf5_library.hpp"
 #include "lib/core/files/temporary_file.hpp"
 

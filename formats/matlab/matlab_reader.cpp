@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "formats/matlab/matlab_reader.hpp"
-
 #include <algorithm>
 #include <string>
 
 #include "formats/arrays/array_reader.hpp"
-#include "formats/hdf5/hdf5_reader.hpp"
+#include "formats/hdf5/hdf5_format.hpp"
 #include "formats/matlab/mat5_file.hpp"
+#include "formats/matlab/matlab_format.hpp"
 
 namespace faultline {
 namespace {

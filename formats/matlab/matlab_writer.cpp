@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "formats/matlab/matlab_writer.hpp"
-
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "formats/arrays/written_arrays.hpp"
 #include "formats/matlab/mat5_file.hpp"
+#include "formats/matlab/matlab_format.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 

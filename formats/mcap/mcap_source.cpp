@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/mcap/mcap_source.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,10 +11,10 @@
 
 #include "formats/bytes/byte_cursor.hpp"
 #include "formats/bytes/unpack_block.hpp"
+#include "formats/mcap/mcap_format.hpp"
 #include "formats/mcap/mcap_record.hpp"
 #include "formats/mcap/mcap_records.hpp"
 #include "formats/mcap/mcap_topics.hpp"
-#include "formats/mcap/mcap_writer.hpp"
 #include "formats/messages/joint_state_reader.hpp"
 #include "formats/messages/lost_messages.hpp"
 #include "formats/provenance.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/mcap/mcap_writer.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,14 +10,25 @@
 
 #include "formats/log_event.hpp"
 #include "formats/mcap/mcap_file.hpp"
+#include "formats/mcap/mcap_format.hpp"
 #include "formats/mcap/mcap_recording.hpp"
-#include "formats/mcap/mcap_stamp.hpp"
 #include "formats/messages/encode_joint_state.hpp"
 #include "formats/messages/own_topics.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {
 namespace {
+
+/// Returns a time as a member of a JSON message, in the form that programs recognise, and its schema.
+nlohmann::ordered_json mcap_stamp(std::int64_t stamp_ns) {
+  constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+  return {{"sec", stamp_ns / kNsPerSecond}, {"nsec", stamp_ns % kNsPerSecond}};
+}
+
+nlohmann::ordered_json mcap_stamp_schema() {
+  const nlohmann::ordered_json integer{{"type", "integer"}};
+  return {{"type", "object"}, {"title", "time"}, {"properties", {{"sec", integer}, {"nsec", integer}}}};
+}
 
 using Json = nlohmann::ordered_json;
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/native/native_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 
 #include "formats/byte_window.hpp"
 #include "formats/native/native_chunks.hpp"
+#include "formats/native/native_format.hpp"
 #include "formats/native/native_layout.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/issue.hpp"

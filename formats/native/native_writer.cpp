@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "formats/native/native_writer.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
 
 #include "formats/channel_list.hpp"
+#include "formats/native/native_format.hpp"
 #include "formats/native/native_layout.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"

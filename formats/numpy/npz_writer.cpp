@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/numpy/npz_writer.hpp"
-
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -9,6 +7,7 @@
 
 #include "formats/arrays/written_arrays.hpp"
 #include "formats/numpy/npy_header.hpp"
+#include "formats/numpy/numpy_format.hpp"
 #include "lib/core/atomic_file.hpp"
 
 namespace faultline {

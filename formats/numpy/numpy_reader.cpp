@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/numpy/numpy_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "formats/arrays/array_reader.hpp"
 #include "formats/arrays/stored_arrays.hpp"
 #include "formats/numpy/npy_header.hpp"
+#include "formats/numpy/numpy_format.hpp"
 #include "formats/numpy/zip_members.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/make_issue.hpp"

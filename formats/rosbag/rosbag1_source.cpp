@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/rosbag/rosbag1_source.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "formats/messages/joint_state_reader.hpp"
 #include "formats/messages/lost_messages.hpp"
 #include "formats/rosbag/rosbag1_record.hpp"
+#include "formats/rosbag/rosbag_format.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {

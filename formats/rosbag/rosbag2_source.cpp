@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/rosbag/rosbag2_source.hpp"
-
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -18,6 +16,7 @@
 #include "formats/bytes/work_budget.hpp"
 #include "formats/messages/joint_state_reader.hpp"
 #include "formats/messages/message_source.hpp"
+#include "formats/rosbag/rosbag_format.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/issue.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "formats/arrays/array_file.hpp"
 #include "formats/byte_source.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {
@@ -23,5 +24,9 @@ using MatlabNaming = std::string (*)(const std::string& path);
 
 /// Opens the datasets; `matlab` is null for an ordinary file.
 std::unique_ptr<ArrayFile> open_hdf5_arrays(const std::string& path, MatlabNaming matlab);
+
+/// Creates an HDF5 file with a dataset per quantity, see docs/formats-hdf5.md: chunks with checksums, written
+/// when they are full.
+std::unique_ptr<LogWriter> create_hdf5(const std::string& path);
 
 }  // namespace faultline

@@ -3,10 +3,18 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
+#include "formats/byte_source.hpp"
 #include "formats/log_writer.hpp"
+#include "lib/log/raw_reader.hpp"
 
 namespace faultline {
+
+bool looks_like_mcap(std::string_view head);
+
+/// Opens the joint states of an MCAP recording, read from front to back; its index is only checked.
+std::unique_ptr<RawReader> open_mcap(std::unique_ptr<ByteSource> bytes);
 
 /// Name of the metadata that hold provenance_of(), and its key.
 inline constexpr const char* kMcapProvenance = "faultline/provenance";
