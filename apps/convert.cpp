@@ -8,7 +8,7 @@
 #include "apps/exit_status.hpp"
 #include "apps/log_selection.hpp"
 #include "apps/progress.hpp"
-#include "apps/work/diagnosis_events.hpp"
+#include "apps/work/diagnosis_recording.hpp"
 #include "apps/work/file_use.hpp"
 #include "formats/log_formats.hpp"
 #include "formats/open_log.hpp"

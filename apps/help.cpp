@@ -8,7 +8,6 @@
 #include "apps/manual/all_commands.hpp"
 #include "apps/manual/completion.hpp"
 #include "apps/manual/help_text.hpp"
-#include "apps/manual/man_page.hpp"
 #include "apps/manual/unknown_word.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"

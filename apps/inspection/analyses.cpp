@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "apps/inspection/analyses.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "apps/manual/command_description.hpp"
 
@@ -15,5 +16,14 @@ std::string title_of(const ArgumentDescription& argument);
 
 /// Returns the text of --help, for terminals of 100 columns.
 std::string help_text(const CommandDescription& command);
+
+struct ManPage {
+  std::string name;  ///< of the file: "faultline-golden-check.1"
+  std::string text;  ///< roff with the man macros
+};
+
+/// Returns a page for the command and each one below it, in section 1. The pages have the program's version
+/// and no date, so that the same program gives the same bytes.
+std::vector<ManPage> man_pages(const CommandDescription& command);
 
 }  // namespace faultline

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "apps/manual/man_page.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

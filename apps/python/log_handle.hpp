@@ -6,15 +6,23 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "apps/python/column_reader.hpp"
 #include "apps/python/watched_work.hpp"
 #include "formats/open_log.hpp"
+#include "lib/log/raw_reader.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {
+
+/// A column of numbers in memory that the caller owns.
+struct ColumnView {
+  RawColumn column;
+  std::span<const double> values;
+  bool is_text = false;  ///< a column without numbers; `values` is empty and each cell is missing
+};
 
 /// A log as given by Python: a file with its parts, or columns in memory.
 class LogHandle {

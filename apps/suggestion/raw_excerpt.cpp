@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "apps/suggestion/raw_excerpt.hpp"
-
 #include <algorithm>
 
+#include "apps/suggestion/robot_guess.hpp"
 #include "formats/open_log.hpp"
 
 namespace faultline {

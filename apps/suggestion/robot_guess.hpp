@@ -4,11 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "apps/suggestion/raw_excerpt.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/channels.hpp"
+#include "lib/log/raw_reader.hpp"
 
 namespace faultline {
+
+/// The first rows of a file, unchanged; enough to derive the meaning of its columns.
+struct RawExcerpt {
+  std::string path;
+  bool canonical = false;                   ///< the columns are channels in SI and need no guess
+  std::vector<RawColumn> columns;           ///< the first 256
+  std::vector<std::vector<double>> values;  ///< [column][row]
+
+  std::size_t rows() const;
+};
+
+/// Throws Error(input) when the file cannot be read.
+RawExcerpt raw_excerpt(const std::string& path);
 
 /// The probable meaning of a column, and the reason.
 struct GuessedChannel {

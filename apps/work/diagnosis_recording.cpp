@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "apps/work/diagnosis_recording.hpp"
 
-#include <memory>
+#include <fmt/format.h>
 
-#include "apps/work/diagnosis_events.hpp"
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
 #include "formats/mcap/mcap_recording.hpp"
 #include "formats/messages/own_topics.hpp"
 #include "formats/provenance.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
 #include "lib/diagnose/curves/expected_joint.hpp"
 #include "lib/diagnose/curves/required_torque.hpp"
 #include "lib/diagnose/monitor/model_rate.hpp"
@@ -15,6 +20,46 @@
 
 namespace faultline {
 namespace {
+
+using ReportJson = nlohmann::json;
+
+constexpr const char* kSchema = "faultline/diagnosis/1";
+constexpr std::size_t kMostBytes = 256 << 20;
+
+/// Returns "collision of joint 1 (fault 1, confidence 0.97)".
+std::string fault_text(const ReportJson& fault) {
+  std::string text = fault.at("kind").get<std::string>();
+  if (const auto joint = fault.find("joint"); joint != fault.end() && joint->is_number())
+    text += fmt::format(" of joint {}", joint->get<int>());
+  text += fmt::format(" (fault {}", fault.at("id").get<int>());
+  if (const auto confidence = fault.find("confidence"); confidence != fault.end() && confidence->is_number())
+    text += fmt::format(", confidence {:.2f}", confidence->get<double>());
+  return text + ")";
+}
+
+void add_events(const ReportJson& fault, std::vector<LogEvent>& events) {
+  const std::string text = fault_text(fault);
+  const auto add = [&](const char* member, const char* what, bool grave) {
+    if (const auto time = fault.find(member); time != fault.end() && time->is_number())
+      events.push_back({time->get<double>(), grave, what + text});
+  };
+  add("onset_s", "begins: ", true);
+  add("alarm_s", "alarm: ", false);
+  add("end_s", "ends: ", false);
+}
+
+/// Adds the verdict of a log without faults at its start: an empty list of events would be taken for health
+/// even without a verdict.
+void add_verdict(const ReportJson& diagnosis, std::vector<LogEvent>& events) {
+  const auto verdict = diagnosis.find("verdict"), log = diagnosis.find("log");
+  if (verdict == diagnosis.end() || log == diagnosis.end()) return;
+  const ReportJson start = log->value("start_s", ReportJson()),
+                   reason = diagnosis.value("verdict_reason", ReportJson());
+  if (!start.is_number()) return;
+  const std::string found = *verdict == "healthy" ? "no fault found" : "no verdict";
+  events.push_back(
+      {start.get<double>(), false, reason.is_string() ? found + ": " + reason.get<std::string>() : found});
+}
 
 ComputedSignals signals_of(const char* topic, int joints, bool with_velocity) {
   const JointSignals empty(joints);
@@ -61,6 +106,27 @@ NamedCurves evidence_of(const FaultFinding& fault) {
 }
 
 }  // namespace
+
+std::vector<LogEvent> events_of_file(const std::string& path) {
+  return events_of_diagnosis(read_file(path, kMostBytes), path);
+}
+
+std::vector<LogEvent> events_of_diagnosis(const std::string& report, const std::string& where) {
+  const ReportJson diagnosis = ReportJson::parse(report, nullptr, false);
+  std::vector<LogEvent> events;
+  try {
+    if (!diagnosis.is_object() || diagnosis.at("schema") != kSchema) throw Error(ErrorCode::input, where, "");
+    for (const ReportJson& fault : diagnosis.at("faults")) add_events(fault, events);
+    if (diagnosis.at("faults").empty()) add_verdict(diagnosis, events);
+  } catch (const std::exception&) {
+    throw Error(
+        ErrorCode::input, where,
+        std::string("is not a diagnosis (schema ") + kSchema + "); write one with faultline diagnose --json");
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const LogEvent& a, const LogEvent& b) { return a.time_s < b.time_s; });
+  return events;
+}
 
 void write_recording(const std::string& path, LogSource& log, const Model& model,
                      const Diagnosis& diagnosis) {
