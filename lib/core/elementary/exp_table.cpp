@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/core/elementary/exp_table.hpp"
+#include "lib/core/elementary/scaled_exp.hpp"
 
 namespace faultline::elementary {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/core/elementary/log_table.hpp"
+#include "lib/core/elementary/scaled_log.hpp"
 
 namespace faultline::elementary {
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "lib/core/elementary/double_double.hpp"
-#include "lib/core/elementary/exp_table.hpp"
 
 namespace faultline::elementary {
+
+/// 2^(k / 128).
+extern const std::array<DoubleDouble, 128> kRootsOfTwo;
 
 /// (high + low) 2^power, high from 1 to below 2, low below 2^-7.
 struct ScaledExp {

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 
 #include "lib/core/elementary/double_double.hpp"
-#include "lib/core/elementary/log_table.hpp"
 
 namespace faultline::elementary {
+
+/// For mantissas m from 1 + k / 128 on, 128 of them up to 2; those from kFirstHalved on stand for m / 2.
+struct LogEntry {
+  double inverse;            ///< about 1 / m, in ten bits, so that products with half a mantissa are exact
+  double log_high, log_low;  ///< -log(inverse); the high part is a multiple of 2^-42
+};
+inline constexpr int kFirstHalved = 52;
+extern const std::array<LogEntry, 128> kLogEntries;
 
 /// x = 2^power m, m from 0.703 to 1.406, and m entry.inverse = 1 + coarse + fine exactly, coarse + fine
 /// within 1/128 of zero. Around x = 1 power is 0 and the inverse 1, so that nothing cancels.
