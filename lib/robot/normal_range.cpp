@@ -9,6 +9,11 @@
 namespace faultline {
 namespace {
 
+constexpr double kMostLeastSize =
+    10.0;  // times the usual value: a larger share would switch the fault kind off
+
+FaultKind kind_at(std::size_t i) { return static_cast<FaultKind>(i); }
+
 double share(const TomlTable& table, const char* key, double fallback) {
   const double value = table.number(key, fallback);
   if (value < 0.0 || value >= 1.0)
@@ -28,6 +33,33 @@ std::array<double, 2> noise_factors(const TomlTable& table, const std::array<dou
 }
 
 }  // namespace
+
+LeastSizes::LeastSizes() : share{} {
+  for (std::size_t i = 0; i < share.size(); ++i) share[i] = describe(kind_at(i)).least_size;
+}
+
+LeastSizes least_sizes_from_table(const TomlTable& table) {
+  LeastSizes sizes;
+  for (std::size_t i = 0; i < sizes.share.size(); ++i) {
+    const FaultDescription& fault = describe(kind_at(i));
+    if (!(fault.least_size > 0.0)) continue;
+    sizes.share[i] = table.number(fault.name, fault.least_size);
+    if (!(sizes.share[i] >= 0.0 && sizes.share[i] <= kMostLeastSize))
+      table.fail(fault.name, fmt::format("expected a share of {} from 0 to {:g}, such as {:g}, found {:g}",
+                                         usual_of(fault.sizes().back().feature), kMostLeastSize,
+                                         fault.least_size, sizes.share[i]));
+  }
+  return sizes;
+}
+
+std::string least_sizes_text(const LeastSizes& sizes) {
+  if (sizes == LeastSizes{}) return "";
+  std::string text = "\n[least_size]\n";
+  for (std::size_t i = 0; i < sizes.share.size(); ++i)
+    if (const FaultDescription& fault = describe(kind_at(i)); fault.least_size > 0.0)
+      text += fmt::format("{} = {}\n", fault.name, toml_number(sizes.share[i]));
+  return text;
+}
 
 NormalRange normal_range_from_table(const TomlTable& normal) {
   NormalRange range;

@@ -8,7 +8,6 @@
 
 #include "lib/log/channels.hpp"
 #include "lib/robot/chain.hpp"
-#include "lib/robot/least_sizes.hpp"
 #include "lib/robot/normal_range.hpp"
 
 namespace faultline {
