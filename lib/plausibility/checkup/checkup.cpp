@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lib/log/log_channels.hpp"
 #include "lib/log/time_axis.hpp"
@@ -10,10 +11,94 @@
 namespace faultline {
 namespace {
 
+constexpr std::int64_t kShort = 20;  // rows, of a source slower than the logger; a robot at rest repeats more
+
+constexpr std::size_t kBlockSteps = 64;
+constexpr std::ptrdiff_t kTrimmed = 8;  // at each end
+constexpr std::size_t kBlocksForGood = 3;
+constexpr double kOther = 0.2;      // relative, of a period from the usual one
+constexpr double kSamePace = 0.05;  // relative, of the new periods from each other
+constexpr double kAdaption = 0.1;
+constexpr std::size_t kMostChanges = 100;
+
+bool differs(double a, double b, double share) { return std::abs(a - b) > share * b; }
+
 constexpr int kHeadRows = 64;
 constexpr double kGapSteps = 3.0;
 
 }  // namespace
+
+void RepeatedRowCheck::Runs::end() {
+  found.longest = std::max(found.longest, run);
+  if (run > 0 && run < kShort) {
+    if (found.first_row == 0) found.first_row = row - run + 1;
+    found.held += run;
+  }
+  run = 0;
+}
+
+void RepeatedRowCheck::Runs::take(bool repeats) {
+  if (repeats) {
+    ++found.rows;
+    ++run;
+  } else {
+    end();
+  }
+  ++row;
+}
+
+void RepeatedRowCheck::add(const Log& segment) {
+  const std::size_t positions = segment.q.size();  // the first channels
+  for (int i = 0; i < segment.rows(); ++i) {
+    now_.clear();
+    for_each_joint_channel(segment,
+                           [&](const std::vector<double>& values, Channel) { now_.push_back(values[i]); });
+    const bool known = last_.size() == now_.size();  // a missing value equals no value
+    std::size_t same = 0;
+    for (std::size_t j = 0; j < positions && known; ++j) same += now_[j] == last_[j];
+    positions_.take(known && same == positions);
+    mixed_ += same > 0 && same < positions;
+    all_.take(now_ == last_);
+    now_.swap(last_);
+  }
+}
+
+RepeatedRowCounts RepeatedRowCheck::result() const {
+  RepeatedRowCheck done = *this;
+  done.all_.end();
+  done.positions_.end();
+  return {done.all_.found, done.positions_.found, mixed_};
+}
+
+void ClockCheck::add(double t) {
+  if (rows_++ > 0) {
+    if (steps_.empty()) block_ = {last_s_, rows_ - 1, 0.0};
+    steps_.push_back(t - last_s_);
+    if (steps_.size() == kBlockSteps) close_block();
+  }
+  last_s_ = t;
+}
+
+void ClockCheck::close_block() {
+  std::sort(steps_.begin(), steps_.end());
+  block_.period_s = std::accumulate(steps_.begin() + kTrimmed, steps_.end() - kTrimmed, 0.0) /
+                    static_cast<double>(kBlockSteps - 2 * kTrimmed);
+  steps_.clear();
+  if (usual_s_ == 0.0) usual_s_ = block_.period_s;
+  if (!differs(block_.period_s, usual_s_, kOther)) {
+    usual_s_ += kAdaption * (block_.period_s - usual_s_);
+    other_.clear();
+    return;
+  }
+  // The block in which the period changes has steps of both periods.
+  if (other_.size() > 1 && differs(block_.period_s, other_.back().period_s, kSamePace)) other_.clear();
+  other_.push_back(block_);
+  if (other_.size() <= kBlocksForGood) return;
+  if (changes_.size() < kMostChanges)
+    changes_.push_back({other_.front().start_s, other_.front().row, usual_s_, block_.period_s});
+  usual_s_ = block_.period_s;
+  other_.clear();
+}
 
 void Checkup::add(const Log& segment) {
   if (settled_) return take(segment);

@@ -11,12 +11,77 @@
 #include "lib/log/log.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/plausibility/checkup/channel_course.hpp"
-#include "lib/plausibility/checkup/clock_check.hpp"
-#include "lib/plausibility/checkup/repeated_rows.hpp"
 #include "lib/plausibility/checkup/torque_relation.hpp"
 #include "lib/plausibility/checkup/velocity_relation.hpp"
 
 namespace faultline {
+
+/// Count of rows whose joint channels all equal those of the row before, at another time: the logger is
+/// faster than its source.
+struct RepeatedRowCount {
+  std::int64_t rows = 0;       ///< all, also those of a robot at rest
+  std::int64_t held = 0;       ///< in short stretches, directly after which joints moved
+  std::int64_t longest = 0;    ///< in one stretch
+  std::int64_t first_row = 0;  ///< of the first short stretch, from 1; 0 for none
+};
+
+/// For all joint channels together, and for the positions alone.
+struct RepeatedRowCounts {
+  RepeatedRowCount all, positions;
+  /// Rows in which some positions change and others do not, as with coarse encoders.
+  std::int64_t mixed = 0;
+};
+
+class RepeatedRowCheck {
+ public:
+  void add(const Log& segment);
+  RepeatedRowCounts result() const;
+
+ private:
+  /// Stretches of successive rows with the same values.
+  struct Runs {
+    void take(bool repeats);
+    void end();
+
+    std::int64_t row = 0, run = 0;
+    RepeatedRowCount found{};
+  };
+  std::vector<double> last_, now_;
+  Runs all_, positions_;
+  std::int64_t mixed_ = 0;
+};
+
+/// A lasting change of the sample period of a log.
+struct PeriodChange {
+  double at_s = 0.0;
+  std::int64_t row = 0;  ///< about; the row before the first step of the new period, from 1
+  double before_s = 0.0, after_s = 0.0;
+};
+
+/// Detects lasting changes of the sample period: over many steps, not by gaps or jitter.
+class ClockCheck {
+ public:
+  void add(double t);
+  /// Returns the first hundred changes.
+  const std::vector<PeriodChange>& changes() const { return changes_; }
+
+ private:
+  /// Successive steps.
+  struct Block {
+    double start_s = 0.0;
+    std::int64_t row = 0;
+    double period_s = 0.0;  ///< mean of the steps without the shortest and longest
+  };
+  void close_block();
+
+  std::int64_t rows_ = 0;
+  double last_s_ = 0.0;
+  std::vector<double> steps_;
+  Block block_;
+  double usual_s_ = 0.0;      ///< period so far, 0 if unknown
+  std::vector<Block> other_;  ///< successive blocks with another period
+  std::vector<PeriodChange> changes_;
+};
 
 struct ChannelCheckup {
   Channel channel;
