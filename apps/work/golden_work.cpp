@@ -12,7 +12,7 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/output_place.hpp"
-#include "lib/golden/check_junit.hpp"
+#include "lib/golden/check_text.hpp"
 #include "lib/golden/golden_folder.hpp"
 #include "lib/golden/run_json.hpp"
 

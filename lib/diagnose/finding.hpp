@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/diagnose/decided_episode.hpp"
+#include "lib/diagnose/decision.hpp"
 #include "lib/diagnose/diagnosis.hpp"
 #include "lib/diagnose/lasting_friction.hpp"
+#include "lib/diagnose/monitored_episode.hpp"
 #include "lib/diagnose/sample_alarm.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {
+
+/// An episode with its decision, from which a finding is made. What it refers to outlives it.
+struct DecidedEpisode {
+  const MonitoredEpisode& observed;
+  const DecisionBasis& basis;
+  Decision decision;
+};
 
 /// Makes the finding of a decided episode, without similar cases (precedents_of()): label, times and size,
 /// alternatives, evidence, and what to check next.

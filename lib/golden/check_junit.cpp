@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/golden/check_junit.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

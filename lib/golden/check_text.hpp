@@ -16,4 +16,8 @@ std::string unified_difference(const CheckedItem& item, const GoldenCheck& check
 /// "first divergence at 3.204 s: dq2 is 0.412, expected 0.398 (allowed 0.003)"; empty when nothing differs.
 std::string divergence_text(const CheckedItem& item);
 
+/// JUnit XML: a test case for each log and for the identification. A mismatch is a failure whose message is
+/// the first divergence, a damaged golden file an error.
+std::string render_check_junit(const GoldenCheck& check, const std::string& suite);
+
 }  // namespace faultline
