@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/report/timeline.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/core/paint.hpp"
 #include "lib/report/plot/plot_axis.hpp"
+#include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {

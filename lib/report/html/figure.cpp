@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/report/html/figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/report/html/elements.hpp"
+#include "lib/report/html/page_figures.hpp"
 #include "lib/report/plot/plot_axis.hpp"
 
 namespace faultline {

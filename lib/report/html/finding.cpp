@@ -9,7 +9,7 @@
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/html/elements.hpp"
-#include "lib/report/html/figure.hpp"
+#include "lib/report/html/page_figures.hpp"
 #include "lib/report/precedent_words.hpp"
 
 namespace faultline {

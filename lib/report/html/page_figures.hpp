@@ -55,4 +55,14 @@ std::vector<PageFigure> run_figures(const std::vector<FaultFinding>& faults, con
 /// The plots around one fault; none when `curves` has no detail of it.
 std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves& curves);
 
+/// A figure as it is without script and on paper: caption, legend, a picture and, to unfold, a table. The
+/// script of the page puts a plot into its element of class "live".
+std::string html_figure(const PageFigure& figure, double sample_period_s);
+
+/// What the script of the page draws from, as JSON that is safe inside a <script> element: {"windows":
+/// [{from, to, fault, keys: {KEY: [low, high, DATA]}}], "traces": [{times, keys: {KEY: [...]}}], "figures":
+/// [...]}. DATA is base64 of little-endian 16-bit numbers from 0 (low) to 65534 (high); 65535 is missing.
+std::string html_plot_data(const std::vector<FaultFinding>& faults, const RunCurves& curves,
+                           const std::vector<PageFigure>& figures);
+
 }  // namespace faultline

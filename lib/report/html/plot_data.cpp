@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/report/html/plot_data.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -10,6 +8,7 @@
 #include "lib/core/outgoing/inside_script.hpp"
 #include "lib/core/utf8.hpp"
 #include "lib/report/html/base64.hpp"
+#include "lib/report/html/page_figures.hpp"
 
 namespace faultline {
 namespace {
