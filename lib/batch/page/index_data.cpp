@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/batch/page/index_data.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "lib/batch/page/index_page.hpp"
 #include "lib/batch/page/index_trends.hpp"
 #include "lib/core/distributions.hpp"
 #include "lib/core/outgoing/inside_script.hpp"

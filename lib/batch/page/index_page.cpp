@@ -7,8 +7,6 @@
 #include <cmath>
 
 #include "lib/batch/batch_row.hpp"
-#include "lib/batch/page/index_assets.hpp"
-#include "lib/batch/page/index_data.hpp"
 #include "lib/batch/page/index_thumbnail.hpp"
 #include "lib/batch/page/index_trends.hpp"
 #include "lib/core/markup.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lib/batch/batch_summary.hpp"
@@ -12,5 +13,16 @@ namespace faultline {
 /// small script sorts and filters. Nothing is loaded, and its Content-Security-Policy forbids it. Rows lead
 /// to logs/<result>.html with `pages`, else to the JSON.
 std::string render_index_page(const std::vector<BatchRow>& rows, const BatchSummary& summary, bool pages);
+
+/// All rows as JSON for the page's scripts, safe inside a <script> element: {pages, time, models[], labels[],
+/// parameters[], rows[]}; a row is [log, verdict, model, result, faults, reason, start_s, end_s, period_s,
+/// joints, issues, rows, residual_rms[], residual_peak[], condition, parameters], a fault [label, joint,
+/// onset_s, alarm_s, end_s, confidence], a condition or parameter [name, value, half of its 95 % interval];
+/// models, labels and names by their place in the lists. `time`: all judged logs tell the date.
+std::string index_data(const std::vector<BatchRow>& rows, const BatchFacts& facts, bool pages);
+
+/// What is put into every index, embedded when the program is built (embed_assets.cmake).
+std::string_view index_style();
+std::string_view index_script();
 
 }  // namespace faultline
