@@ -6,7 +6,6 @@
 #include "lib/reproduce/classifier/classifier_study.hpp"
 #include "lib/reproduce/generator/generator_study.hpp"
 #include "lib/reproduce/page/trade_off_figures.hpp"
-#include "lib/reproduce/runs/fault_figures.hpp"
 #include "lib/reproduce/runs/run_study.hpp"
 
 namespace faultline {

@@ -1,16 +1,74 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "lib/core/progress.hpp"
-#include "lib/reproduce/generator/generator_candidates.hpp"
+#include "lib/reproduce/generator/generator_bench.hpp"
+#include "lib/reproduce/generator/identified_robot.hpp"
 #include "lib/reproduce/page/result_table.hpp"
 #include "lib/reproduce/protocol/reproduce_options.hpp"
 
 namespace faultline {
+
+/// How much the study of residual generators trains and tests.
+struct GeneratorScale {
+  int test_trajectories = 200;
+  int trajectories = 100;       ///< of the paper's training set
+  int many_trajectories = 800;  ///< of the large one
+  int epochs = 1500;            ///< of back-propagation
+  int iterations = 40;          ///< of Levenberg-Marquardt
+  int many_iterations = 40;     ///< the same on the large set, in the first experiment only
+  int noisy_iterations = 15;    ///< the same on patterns with noise of 0.1, where more only fits the noise
+  LearningLogs slow_logs{};
+  LearningLogs fast_logs{.count = 1, .duration_s = 20.0, .sample_period_s = 0.001, .max_rows = 6000};
+};
+GeneratorScale full_scale();
+GeneratorScale quick_scale();
+
+/// A bench with what identification made of its robot.
+struct IdentifiedBench {
+  GeneratorBench bench;
+  Robot identified;                         ///< from logs at the paper's sample period
+  std::optional<Robot> identified_at_1khz;  ///< empty where it was not wanted, or the torque is held longer
+};
+
+/// What an independent study measured of the same generator; NaN where it did not.
+struct StudyFigures {
+  double held = std::numeric_limits<double>::quiet_NaN();
+  double fast = std::numeric_limits<double>::quiet_NaN();
+  double pd = std::numeric_limits<double>::quiet_NaN();
+  double held_noise_01 = std::numeric_limits<double>::quiet_NaN();
+  double held_noise_1 = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A residual generator of the comparison. `errors` is empty where it does not apply to a controller.
+struct GeneratorCandidate {
+  std::string name;
+  std::string patterns;  ///< trained on, "-" for none
+  StudyFigures study;
+  std::function<std::optional<GeneratorErrors>(const IdentifiedBench&)> errors;
+  bool first_seed_only = false;  ///< dear to train: measured in the first experiment only
+};
+
+/// On the robot without friction: the paper's generator, its variants and physics.
+std::vector<GeneratorCandidate> paper_candidates(const GeneratorScale& scale);
+/// On the robot with friction: what a wrong model costs and what identification and a network mend.
+std::vector<GeneratorCandidate> friction_candidates(const GeneratorScale& scale);
+
+// Names by which goals and texts find their rows.
+inline constexpr const char* kBackPropagation = "MLP 9-49-6, back-propagation";
+inline constexpr const char* kLevenbergMarquardt = "MLP 9-49-6, Levenberg-Marquardt";
+inline constexpr const char* kTrainedWithNoise = "MLP 9-49-6, Levenberg-Marquardt, trained with noise 0.1";
+inline constexpr const char* kPhysicsTrue = "physics, true parameters";
+inline constexpr const char* kPhysicsIdentified = "physics, identified";
+inline constexpr const char* kWrongAndMlp = "that wrong physics + MLP of 20 units";
+inline constexpr const char* kHybrid = "hybrid: identified physics + MLP of 20 units";
 
 /// Errors of every candidate, under every controller, in every experiment.
 struct GeneratorMeasurements {

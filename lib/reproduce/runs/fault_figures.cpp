@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/runs/fault_figures.hpp"
-
 #include <fmt/format.h>
 
 #include "lib/reproduce/protocol/motion_generator.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
+#include "lib/reproduce/runs/run_study.hpp"
 #include "lib/reproduce/runs/sample_detector.hpp"
 #include "lib/residual/residuals.hpp"
 
