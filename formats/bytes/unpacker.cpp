@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/bytes/unpacker.hpp"
-
 #include <fmt/format.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -10,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "formats/byte_source.hpp"
 #include "formats/bytes/file_bytes.hpp"
 #include "formats/bytes/work_budget.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "formats/hdf5/hdf5_storage.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "formats/hdf5/hdf5_dataset.hpp"
 
 namespace faultline {
 namespace {

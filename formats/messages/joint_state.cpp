@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "formats/messages/joint_state.hpp"
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "formats/messages/joint_streams.hpp"
 #include "formats/missing.hpp"
 
 namespace faultline {

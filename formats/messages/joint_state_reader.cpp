@@ -12,7 +12,6 @@
 #include "formats/bytes/work_budget.hpp"
 #include "formats/messages/joint_layout.hpp"
 #include "formats/messages/message_issues.hpp"
-#include "formats/messages/rival_streams.hpp"
 #include "formats/missing.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/issue.hpp"

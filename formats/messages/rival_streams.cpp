@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "formats/messages/rival_streams.hpp"
-
 #include <algorithm>
 
+#include "formats/messages/joint_layout.hpp"
 #include "formats/missing.hpp"
 
 namespace faultline {
