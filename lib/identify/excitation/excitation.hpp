@@ -7,6 +7,9 @@
 
 namespace faultline {
 
+struct Identification;
+struct TorqueFit;
+
 /// Motion of one joint in the logs.
 struct JointExcitation {
   double q_low = 0.0, q_high = 0.0;  ///< range of position, rad or m
@@ -35,5 +38,10 @@ struct Excitation {
   Eigen::VectorXd joint_scale;  ///< torque scale by joint, N m or N; not kept in JSON
   Eigen::MatrixXd moments;      ///< mean of a^T a over rows a / joint_scale of `columns`; not kept in JSON
 };
+
+/// Returns what the motion of the logs determines, by joint and by parameter. `still` are the joints that
+/// never move, from 1. Needs `id.joint_fits` and `id.residual_rms`.
+Excitation motion_excitation(const TorqueFit& torque, const std::vector<int>& still,
+                             const Identification& id);
 
 }  // namespace faultline

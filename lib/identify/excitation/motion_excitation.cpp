@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/excitation/motion_excitation.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "lib/core/matrix/decompositions.hpp"
+#include "lib/identify/excitation/excitation.hpp"
+#include "lib/identify/identification.hpp"
+#include "lib/identify/torque_fit.hpp"
 
 namespace faultline {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/identify/excitation/motion_excitation.hpp"
-#include "lib/identify/verdict/single_log_fits.hpp"
+#include "lib/identify/excitation/excitation.hpp"
+#include "lib/identify/verdict/parameter_trend.hpp"
 
 namespace faultline {
 namespace {

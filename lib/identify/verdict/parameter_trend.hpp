@@ -7,6 +7,9 @@
 
 namespace faultline {
 
+struct Identification;
+struct TorqueFit;
+
 /// Estimate of a parameter from one log alone.
 struct LogValue {
   int log = 0;  ///< from 0
@@ -37,5 +40,14 @@ inline constexpr double kFalseFlags = 0.01;
 /// Tests each parameter for homogeneity (chi-square) and for a slope in the order of logs, each at
 /// kFalseFlags over the number of tests (Bonferroni). Fills all fields except names and `by_log`.
 void test_trends(std::vector<ParameterTrend>& trends);
+
+/// Returns the estimates from each log alone of every fitted parameter, with the same windows and terms, and
+/// whether they change from log to log. A log counts for a parameter only if its own motion determines it; a
+/// parameter with fewer than three such logs is omitted. Empty with fewer logs. Needs `id.joint_fits`.
+///
+/// A variance is the larger of two: from blocks of one log's residual (jackknife), which show model error
+/// where it occurs, and from the residual's autocorrelation over all logs together, which a short log cannot
+/// determine.
+std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const Identification& id);
 
 }  // namespace faultline

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/verdict/single_log_fits.hpp"
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -10,7 +8,10 @@
 #include "lib/core/distributions.hpp"
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/statistics.hpp"
+#include "lib/identify/identification.hpp"
 #include "lib/identify/residual_blocks.hpp"
+#include "lib/identify/torque_fit.hpp"
+#include "lib/identify/verdict/parameter_trend.hpp"
 
 namespace faultline {
 namespace {

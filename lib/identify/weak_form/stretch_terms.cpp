@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/weak_form/stretch_terms.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/identify/weak_form/weak_windows.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/fast_dynamics.hpp"
 
