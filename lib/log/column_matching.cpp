@@ -8,7 +8,6 @@
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/column_families.hpp"
-#include "lib/log/columns/named_joints.hpp"
 #include "lib/log/columns/unit_fit.hpp"
 #include "lib/log/units.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/columns/named_joints.hpp"
-
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
+
+#include "lib/log/column_families.hpp"
 
 namespace faultline {
 namespace {
