@@ -15,7 +15,7 @@
 #include "lib/log/columns/unit_fit.hpp"
 #include "lib/log/time_axis.hpp"
 #include "lib/log/units.hpp"
-#include "lib/plausibility/checkup/torque_relation.hpp"
+#include "lib/plausibility/checkup/joint_relations.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {

@@ -11,8 +11,7 @@
 #include "lib/log/log.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/plausibility/checkup/channel_course.hpp"
-#include "lib/plausibility/checkup/torque_relation.hpp"
-#include "lib/plausibility/checkup/velocity_relation.hpp"
+#include "lib/plausibility/checkup/joint_relations.hpp"
 
 namespace faultline {
 
