@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "lib/core/error.hpp"
-#include "lib/robot/dh/dh_file.hpp"
+#include "lib/robot/dh/denavit_hartenberg.hpp"
 #include "lib/robot/extra_torque_file.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot_file_parts.hpp"

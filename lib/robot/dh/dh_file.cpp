@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/robot/dh/dh_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
