@@ -26,4 +26,8 @@ std::string html_fault_table(const Diagnosis& diagnosis);
 /// A grid of figures with the place for their buttons.
 std::string html_plots(const std::vector<PageFigure>& figures, int fault_id, double sample_period_s);
 
+/// The run from left to right, a lane a joint, as an SVG whose text keeps its size; each fault is a link to
+/// "#fault-ID" that names its kind and times. Empty when the log has no span of time.
+std::string html_timeline(const Diagnosis& diagnosis);
+
 }  // namespace faultline
