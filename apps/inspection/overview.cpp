@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "apps/inspection/overview.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "apps/inspection/inspection.hpp"
 #include "lib/log/log_channels.hpp"
 
 namespace faultline {
