@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rows of the page (their form: index_data.hpp) and their numbers as people read them.
+// The rows of the page (their form: index_page.hpp) and their numbers as people read them.
 'use strict';
 const faultlineIndex = (() => {
   const data = JSON.parse(document.getElementById('index-data').textContent);
