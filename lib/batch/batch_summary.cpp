@@ -136,6 +136,10 @@ BatchFacts read_facts(const std::string& path) {
   const std::string text = read_file(path);
   try {
     const Json json = Json::parse(text);
+    if (json.at("schema") != kFactsSchema)
+      throw Error(
+          ErrorCode::input, path,
+          std::string("has another schema, this program reads ") + kFactsSchema + "; run the batch again");
     BatchFacts facts;
     for (const Json& model : json.at("models")) facts.models.push_back(model_from(model));
     facts.program_version = json.at("program").at("version");
