@@ -11,8 +11,8 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/json/json_matrix.hpp"
 #include "lib/core/random.hpp"
-#include "lib/neural/json_matrix.hpp"
 
 namespace faultline {
 namespace {

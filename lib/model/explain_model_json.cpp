@@ -5,7 +5,7 @@
 
 #include "lib/balance/regressor.hpp"
 #include "lib/core/error.hpp"
-#include "lib/neural/json_matrix.hpp"
+#include "lib/core/json/json_matrix.hpp"
 
 namespace faultline {
 namespace {

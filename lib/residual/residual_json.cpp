@@ -5,7 +5,7 @@
 
 #include "lib/core/enum_named.hpp"
 #include "lib/core/error.hpp"
-#include "lib/neural/json_matrix.hpp"
+#include "lib/core/json/json_matrix.hpp"
 #include "lib/residual/residual_generator.hpp"
 
 namespace faultline {

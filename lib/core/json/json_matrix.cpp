@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/neural/json_matrix.hpp"
+#include "lib/core/json/json_matrix.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,11 @@
 #include "lib/core/error.hpp"
 
 namespace faultline {
+namespace {
 
 using nlohmann::json;
+
+}  // namespace
 
 json vector_to_json(const Eigen::VectorXd& values) {
   return json(std::vector<double>(values.begin(), values.end()));
