@@ -6,8 +6,10 @@
 
 #include "lib/batch/batch_row.hpp"
 #include "lib/core/csv_cell.hpp"
+#include "lib/core/json/json_fields.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
+#include "lib/diagnose/fault_event_fields.hpp"
 #include "lib/fault/label_text.hpp"
 
 namespace faultline {
@@ -29,8 +31,8 @@ std::vector<ParameterValue> parameters_from(const Json& json) {
   return values;
 }
 
-Json report_json(const BatchRow& row) {
-  return row.result.empty() ? Json(nullptr) : Json("logs/" + row.result + ".json");
+Json report_json(const std::string& result) {
+  return result.empty() ? Json(nullptr) : Json("logs/" + result + ".json");
 }
 
 /// As it stands there when it is no file of logs/, which no batch writes.
@@ -48,60 +50,37 @@ std::string fault_words(const FaultEvent& fault) {
 
 }  // namespace
 
+void fields(auto& v, MaybeConst<BatchRow> auto& row) {
+  v("log", row.log);
+  v.or_null("sha256", row.sha256);
+  v("model", row.model);
+  v.or_null("model_sha256", row.model_sha256);
+  v.as("report", row.result, report_json, result_from);
+  v("verdict", row.verdict);
+  v.or_null("reason", row.reason);
+  v("faults", row.faults);
+  v.or_null("format", row.format);
+  v("rows", row.rows);
+  v("rows_used", row.rows_used);
+  v("start_s", row.start_s);
+  v("end_s", row.end_s);
+  v("sample_period_s", row.sample_period_s);
+  v("joints", row.joints);
+  v("warnings", row.warnings);
+  v("severe", row.severe);
+  v("residual_rms", row.residual_rms);
+  v("residual_peak", row.residual_peak);
+  v.as("condition", row.condition, parameters_json, parameters_from);
+  v.as("parameters", row.parameters, parameters_json, parameters_from);
+  v.or_null("doubt", row.doubt);
+}
+
 std::string to_json_line(const BatchRow& row) {
-  const Json json = {
-      {"log", row.log},
-      {"sha256", text_or_null(row.sha256)},
-      {"model", row.model},
-      {"model_sha256", text_or_null(row.model_sha256)},
-      {"report", report_json(row)},
-      {"verdict", row.verdict},
-      {"reason", text_or_null(row.reason)},
-      {"faults", list_of<Json>(row.faults, [](const FaultEvent& fault) -> Json { return to_json(fault); })},
-      {"format", text_or_null(row.format)},
-      {"rows", row.rows},
-      {"rows_used", row.rows_used},
-      {"start_s", number_or_null(row.start_s)},
-      {"end_s", number_or_null(row.end_s)},
-      {"sample_period_s", number_or_null(row.sample_period_s)},
-      {"joints", row.joints},
-      {"warnings", row.warnings},
-      {"severe", row.severe},
-      {"residual_rms", numbers_or_null(row.residual_rms)},
-      {"residual_peak", numbers_or_null(row.residual_peak)},
-      {"condition", parameters_json(row.condition)},
-      {"parameters", parameters_json(row.parameters)},
-      {"doubt", text_or_null(row.doubt)}};
+  const Json json = fields_to_json<Json>(row);
   return inert_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
-BatchRow row_from_json(const std::string& line) {
-  const Json json = Json::parse(line);
-  BatchRow row;
-  row.log = json.at("log").get<std::string>();
-  row.sha256 = text_or_empty(json.at("sha256"));
-  row.model = json.at("model").get<std::string>();
-  row.model_sha256 = text_or_empty(json.at("model_sha256"));
-  row.result = result_from(json.at("report"));
-  row.verdict = json.at("verdict").get<std::string>();
-  row.reason = text_or_empty(json.at("reason"));
-  for (const Json& fault : json.at("faults")) row.faults.push_back(fault_event_from_json(fault));
-  row.format = text_or_empty(json.at("format"));
-  row.rows = json.at("rows").get<std::int64_t>();
-  row.rows_used = json.at("rows_used").get<std::int64_t>();
-  row.start_s = number_or_nan(json.at("start_s"));
-  row.end_s = number_or_nan(json.at("end_s"));
-  row.sample_period_s = number_or_nan(json.at("sample_period_s"));
-  row.joints = json.at("joints").get<int>();
-  row.warnings = json.at("warnings").get<int>();
-  row.severe = json.at("severe").get<int>();
-  row.residual_rms = numbers_or_nan(json.at("residual_rms"));
-  row.residual_peak = numbers_or_nan(json.at("residual_peak"));
-  row.condition = parameters_from(json.at("condition"));
-  row.parameters = parameters_from(json.at("parameters"));
-  row.doubt = text_or_empty(json.at("doubt"));
-  return row;
-}
+BatchRow row_from_json(const std::string& line) { return fields_from_json<BatchRow>(Json::parse(line), ""); }
 
 std::string batch_csv_header() {
   return "file,verdict,faults,fault,joint,onset_s,end_s,alarm_s,confidence,all_faults,residual,rows,"

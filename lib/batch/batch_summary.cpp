@@ -11,6 +11,7 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
+#include "lib/core/json/json_fields.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/statistics.hpp"
@@ -23,20 +24,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFactsSchema = "faultline/batch/2";
-
-Json model_json(const ModelFacts& model) {
-  Json json{{"name", valid_utf8(model.name)}, {"sha256", model.sha256}, {"cases_sha256", model.cases_sha256}};
-  if (!model.notes.empty()) json["notes"] = model.notes;
-  if (!model.grave_doubts.empty()) json["grave_doubts"] = model.grave_doubts;
-  return json;
-}
-
-ModelFacts model_from(const Json& json) {
-  ModelFacts model{json.at("name"), json.at("sha256"), json.at("cases_sha256")};
-  if (json.contains("notes")) model.notes = json["notes"];
-  if (json.contains("grave_doubts")) model.grave_doubts = json["grave_doubts"];
-  return model;
-}
 
 constexpr std::size_t kShownReasons = 5;  // more would push the counts off the terminal
 
@@ -99,6 +86,23 @@ std::string reasons_text(const std::vector<LogWithoutDiagnosis>& logs) {
 
 }  // namespace
 
+void fields(auto& v, MaybeConst<ModelFacts> auto& model) {
+  v.text("name", model.name);
+  v("sha256", model.sha256);
+  v("cases_sha256", model.cases_sha256);
+  v.unless_empty("notes", model.notes);
+  v.unless_empty("grave_doubts", model.grave_doubts);
+}
+
+void fields(auto& v, MaybeConst<BatchFacts> auto& facts) {
+  v("models", facts.models);
+  v.object("program", [&](auto& program) { program("version", facts.program_version); });
+  v("options", facts.options);
+  v("logs", facts.logs);
+  v("shard", facts.shard);
+  v("shards", facts.shards);
+}
+
 bool BatchFacts::operator==(const BatchFacts& other) const {
   return settings_of(*this) == settings_of(other) && logs == other.logs && shard == other.shard &&
          shards == other.shards;
@@ -119,17 +123,10 @@ std::string settings_of(const BatchFacts& facts, const ModelFacts& model) {
 }
 
 std::string facts_to_json(const BatchFacts& facts) {
-  Json models = Json::array();
-  for (const ModelFacts& model : facts.models) models.push_back(model_json(model));
-  return Json{{"schema", kFactsSchema},
-              {"models", models},
-              {"program", {{"version", facts.program_version}}},
-              {"options", facts.options},
-              {"logs", facts.logs},
-              {"shard", facts.shard},
-              {"shards", facts.shards}}
-             .dump(2) +
-         "\n";
+  FieldWriter<Json> writer;
+  writer("schema", kFactsSchema);
+  fields(writer, facts);
+  return writer.json().dump(2) + "\n";
 }
 
 BatchFacts read_facts(const std::string& path) {
@@ -140,13 +137,7 @@ BatchFacts read_facts(const std::string& path) {
       throw Error(
           ErrorCode::input, path,
           std::string("has another schema, this program reads ") + kFactsSchema + "; run the batch again");
-    BatchFacts facts;
-    for (const Json& model : json.at("models")) facts.models.push_back(model_from(model));
-    facts.program_version = json.at("program").at("version");
-    facts.options = json.at("options");
-    facts.logs = json.at("logs");
-    facts.shard = json.at("shard");
-    facts.shards = json.at("shards");
+    auto facts = fields_from_json<BatchFacts>(json, path);
     if (facts.logs >= 0) return facts;
   } catch (const nlohmann::json::exception&) {
     // said below
