@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "lib/core/error.hpp"
 #include "lib/core/files/plain_name.hpp"
+#include "lib/core/json/json_fields.hpp"
 #include "lib/core/json_values.hpp"
+#include "lib/fault/label_fields.hpp"
 
 namespace faultline {
 namespace {
@@ -21,20 +22,6 @@ constexpr const char* kSchema = "faultline/cases/1";
 
 constexpr std::size_t kLongestJsonWord = 24;
 constexpr int kMissingMember = 403, kNumberOverflow = 406;  // error numbers of nlohmann::json
-
-Json label_json(const FaultLabel& label) { return {{"kind", to_string(label.kind)}, {"joint", label.joint}}; }
-
-FaultLabel label_from(const Json& json) {
-  return {fault_kind_from(json.at("kind").get<std::string>()), json.at("joint").get<int>()};
-}
-
-Json opinion_json(const Opinion& opinion) {
-  Json json = label_json(opinion.label);
-  json["confidence"] = number_or_null(opinion.confidence);
-  return json;
-}
-
-Opinion opinion_from(const Json& json) { return {label_from(json), json.at("confidence").get<double>()}; }
 
 Json feature_values(const CaseBase& base, const Case& c) {
   Json values = Json::object();
@@ -53,29 +40,45 @@ std::vector<double> features_from(const Json& json, const std::vector<Feature>& 
   return values;
 }
 
+}  // namespace
+
+void fields(auto& v, MaybeConst<Feature> auto& feature) {
+  v("name", feature.name);
+  v.finite("scale", feature.scale);
+  v.finite("weight", feature.weight);
+}
+
+/// All but the features, which the metric names.
+void fields(auto& v, MaybeConst<Case> auto& c) {
+  v("id", c.id);
+  v("label", c.label);
+  v("decision", c.decision);
+  v.named("outcome", c.outcome, case_outcome_from);
+  v("what_was_done", c.what_was_done);
+  v("origin", c.origin);
+  v.unless_empty("log_sha256", c.log_sha256);
+  v.unless_empty("onset_s", c.onset_s);
+  v.unless_empty("features_by", c.features_by);
+  v.unless_empty("log_name", c.log_name);
+  v.unless_empty("robot", c.robot);
+  v.unless_empty("person", c.person);
+  v.unless_empty("date", c.date);
+  v.object("opinions", [&](auto& opinions) {
+    opinions("mlp", c.episode.mlp);
+    opinions("rbfn", c.episode.rbfn);
+  });
+  v("evidence", c.episode.evidence);
+}
+
+namespace {
+
 Case case_from(const Json& json, const std::vector<Feature>& features) {
-  Case c;
-  c.id = json.at("id").get<std::int64_t>();
-  c.label = label_from(json.at("label"));
-  c.decision = label_from(json.at("decision"));
-  c.outcome = case_outcome_from(json.at("outcome").get<std::string>());
-  c.what_was_done = json.at("what_was_done").get<std::string>();
-  c.origin = json.at("origin").get<std::string>();
+  auto c = fields_from_json<Case>(json, "case");
   if (!c.origin.empty() && !is_plain_log_name(c.origin))
     throw Error(
         ErrorCode::input, "case " + std::to_string(c.id),
         "its origin \"" + c.origin +
             "\" is not the name of a log, as it leads out of a folder; write the name of the log there");
-  c.log_sha256 = json.value("log_sha256", "");
-  if (json.contains("onset_s")) c.onset_s = number_or_nan(json["onset_s"]);
-  c.features_by = json.value("features_by", "");
-  c.log_name = json.value("log_name", "");
-  c.robot = json.value("robot", "");
-  c.person = json.value("person", "");
-  c.date = json.value("date", "");
-  c.episode.mlp = opinion_from(json.at("opinions").at("mlp"));
-  c.episode.rbfn = opinion_from(json.at("opinions").at("rbfn"));
-  c.episode.evidence = number_or_nan(json.at("evidence"));
   c.episode.features = features_from(json.at("features"), features);
   return c;
 }
@@ -139,15 +142,6 @@ Case case_number(std::int64_t number, const Json& json, const std::vector<Featur
               json_problem(error, ""));
 }
 
-Metric metric_from(const Json& json) {
-  Metric metric;
-  metric.near_similarity = json.at("near_similarity").get<double>();
-  for (const Json& f : json.at("features"))
-    metric.features.push_back(
-        {f.at("name").get<std::string>(), f.at("scale").get<double>(), f.at("weight").get<double>()});
-  return metric;
-}
-
 void check_schema(const Json& json) {
   const std::string schema = json.is_object() ? json.value("schema", "") : "";
   if (schema != kSchema)
@@ -159,24 +153,10 @@ void check_schema(const Json& json) {
 }  // namespace
 
 nlohmann::ordered_json to_json(const CaseBase& base, const Case& c) {
-  Json json{{"id", c.id},
-            {"label", label_json(c.label)},
-            {"decision", label_json(c.decision)},
-            {"outcome", to_string(c.outcome)},
-            {"what_was_done", c.what_was_done},
-            {"origin", c.origin}};
-  if (!c.log_sha256.empty()) json["log_sha256"] = c.log_sha256;
-  if (!std::isnan(c.onset_s)) json["onset_s"] = c.onset_s;
-  for (const auto& [name, text] : {std::pair{"features_by", &c.features_by},
-                                   {"log_name", &c.log_name},
-                                   {"robot", &c.robot},
-                                   {"person", &c.person},
-                                   {"date", &c.date}})
-    if (!text->empty()) json[name] = *text;
-  json["opinions"] = {{"mlp", opinion_json(c.episode.mlp)}, {"rbfn", opinion_json(c.episode.rbfn)}};
-  json["evidence"] = number_or_null(c.episode.evidence);
-  json["features"] = feature_values(base, c);
-  return json;
+  FieldWriter<Json> writer;
+  fields(writer, c);
+  writer("features", feature_values(base, c));
+  return writer.json();
 }
 
 std::string to_cases_json(const CaseBase& base) {
@@ -185,9 +165,7 @@ std::string to_cases_json(const CaseBase& base) {
                {"model_identity", base.model_identity()},
                {"robot", base.robot().name},
                {"axes", base.robot().axes},
-               {"features", Json::array()}};
-  for (const Feature& f : base.metric().features)
-    json["features"].push_back({{"name", f.name}, {"scale", f.scale}, {"weight", f.weight}});
+               {"features", fields_to_json<Json>(base.metric().features)}};
   json["cases"] = Json::array();
   for (const Case& c : base.cases()) json["cases"].push_back(to_json(base, c));
   return json.dump(1) + "\n";
@@ -196,7 +174,10 @@ std::string to_cases_json(const CaseBase& base) {
 CaseBase from_cases_json(const std::string& text, const std::string& where) try {
   const Json json = Json::parse(text);
   check_schema(json);
-  Metric metric = metric_from(json);
+  Metric metric;
+  FieldReader<Json> reader(json, where);
+  reader.finite("near_similarity", metric.near_similarity);
+  reader("features", metric.features);
   std::vector<Case> cases;
   for (const Json& c : json.at("cases"))
     cases.push_back(case_number(std::ssize(cases) + 1, c, metric.features));
