@@ -9,7 +9,7 @@
 
 #include "lib/core/enum_named.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/json_values.hpp"
+#include "lib/core/json/json_fields.hpp"
 #include "lib/core/text.hpp"
 #include "lib/robot/robot_file.hpp"
 
@@ -19,209 +19,30 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr const char* kSchema = "faultline/identification/1";
 
-Json parameter(const ParameterEstimate& e) {
-  Json out = {{"name", e.name},
-              {"value", number_or_null(e.value)},
-              {"std", number_or_null(e.std)},
-              {"ci95", {number_or_null(e.ci95[0]), number_or_null(e.ci95[1])}},
-              {"unit", e.unit},
-              {"identifiable", e.identifiable},
-              {"why_not", e.why_not}};
-  if (!e.meaning.empty()) out["meaning"] = e.meaning;
-  return out;
-}
-
-ParameterEstimate parameter_from(const Json& j) {
-  ParameterEstimate e;
-  e.name = j.at("name");
-  e.value = number_or_nan(j.at("value"));
-  e.std = number_or_nan(j.at("std"));
-  e.ci95 = {number_or_nan(j.at("ci95").at(0)), number_or_nan(j.at("ci95").at(1))};
-  e.unit = j.at("unit");
-  e.identifiable = j.at("identifiable");
-  e.why_not = j.at("why_not");
-  e.meaning = j.value("meaning", "");
-  return e;
-}
-
-Json log_json(const IdentifiedLog& log) {
-  return {{"path", log.path},
-          {"sha256", log.sha256},
-          {"rows", log.rows},
-          {"rows_used", log.rows_used},
-          {"sample_period_s", number_or_null(log.sample_period_s)},
-          {"payload_kg", number_or_null(log.payload_kg)},
-          {"fit_r2", numbers_or_null(log.fit_r2)},
-          {"left_out", log.left_out}};
-}
-
-IdentifiedLog log_from(const Json& j) {
-  return {j.at("path"),
-          j.at("sha256"),
-          j.at("rows"),
-          j.at("rows_used"),
-          number_or_nan(j.at("sample_period_s")),
-          number_or_nan(j.at("payload_kg")),
-          numbers_or_nan(j.at("fit_r2")),
-          j.at("left_out")};
-}
-
-Json term_json(const ModelTerm& t) {
-  return {{"name", t.name},
-          {"joint", t.joint + 1},
-          {"kept", t.kept},
-          {"held_out_without", number_or_null(t.error_before)},
-          {"held_out_with", number_or_null(t.error_after)}};
-}
-
-ModelTerm term_from(const Json& j) {
-  return {j.at("name"), j.at("joint").get<int>() - 1, j.at("kept"), number_or_nan(j.at("held_out_without")),
-          number_or_nan(j.at("held_out_with"))};
-}
-
 constexpr const char* kExtraKinds[] = {"load_friction", "shared_inertia", "shared_viscous", "shared_coulomb",
                                        "ripple_cosine", "ripple_sine",    "gear_compliance"};
 
-Json extra_json(const ExtraTerm& term) {
-  return {
-      {"kind", kExtraKinds[static_cast<int>(term.kind)]}, {"joint", term.joint + 1}, {"index", term.index}};
+std::string name_of(ExtraKind kind) { return kExtraKinds[static_cast<int>(kind)]; }
+
+[[noreturn]] void refuse_term(const std::string& kind, const std::string& where) {
+  throw Error(
+      ErrorCode::input, where,
+      fmt::format("names a model term \"{}\" that its robot does not have; identify again", printable(kind)));
 }
 
-ExtraTerm extra_from(const Json& j, const Robot& robot, const std::string& where) {
-  ExtraTerm term;
-  const std::string kind = j.at("kind");
+ExtraKind extra_kind_from(const std::string& kind, const std::string& where) {
   const auto* const found = std::find(std::begin(kExtraKinds), std::end(kExtraKinds), kind);
-  term.kind = static_cast<ExtraKind>(found - std::begin(kExtraKinds));
-  term.joint = j.at("joint").get<int>() - 1;
-  term.index = j.at("index");
+  if (found == std::end(kExtraKinds)) refuse_term(kind, where);
+  return static_cast<ExtraKind>(found - std::begin(kExtraKinds));
+}
+
+void check_term(const ExtraTerm& term, const Robot& robot, const std::string& where) {
   const auto list = is_ripple(term.kind)            ? robot.chain.ripples.size()
                     : is_of_shared_drive(term.kind) ? robot.chain.shared_drives.size()
                                                     : static_cast<std::size_t>(robot.joints());
-  if (found == std::end(kExtraKinds) || term.joint < 0 || term.joint >= robot.joints() || term.index < 0 ||
+  if (term.joint < 0 || term.joint >= robot.joints() || term.index < 0 ||
       static_cast<std::size_t>(term.index) >= list)
-    throw Error(ErrorCode::input, where,
-                fmt::format("names a model term \"{}\" that its robot does not have; identify again",
-                            printable(kind)));
-  return term;
-}
-
-Json state_json(const Identification& id) {
-  std::vector<double> estimate(id.estimate.data(), id.estimate.data() + id.estimate.size());
-  std::vector<double> covariance(id.covariance.data(), id.covariance.data() + id.covariance.size());
-  return {{"robot_file", robot_file_text(id.robot)},
-          {"extra", list_of<Json>(id.space.extra, extra_json)},
-          {"estimate", numbers_or_null(estimate)},
-          {"covariance", numbers_or_null(covariance)}};
-}
-
-Json pattern_json(const ResidualPattern& p) {
-  return {{"position", number_or_null(p.position)},
-          {"speed", number_or_null(p.speed)},
-          {"torque", number_or_null(p.torque)},
-          {"previous", number_or_null(p.previous)},
-          {"spectrum_hz", numbers_or_null(p.spectrum_hz)},
-          {"spectrum", numbers_or_null(p.spectrum)}};
-}
-
-ResidualPattern pattern_from(const Json& j) {
-  return {number_or_nan(j.at("position")),     number_or_nan(j.at("speed")),
-          number_or_nan(j.at("torque")),       number_or_nan(j.at("previous")),
-          numbers_or_nan(j.at("spectrum_hz")), numbers_or_nan(j.at("spectrum"))};
-}
-
-Json joint_json(const JointExcitation& e) {
-  return {{"q_low", number_or_null(e.q_low)},
-          {"q_high", number_or_null(e.q_high)},
-          {"fastest_forward", number_or_null(e.fastest_forward)},
-          {"fastest_back", number_or_null(e.fastest_back)},
-          {"forward", number_or_null(e.forward)},
-          {"lacks", e.lacks}};
-}
-
-JointExcitation joint_from(const Json& j) {
-  return {number_or_nan(j.at("q_low")),           number_or_nan(j.at("q_high")),
-          number_or_nan(j.at("fastest_forward")), number_or_nan(j.at("fastest_back")),
-          number_or_nan(j.at("forward")),         j.at("lacks")};
-}
-
-Json parameter_json(const ParameterExcitation& e) {
-  return {{"name", e.name}, {"own", number_or_null(e.own)}, {"mixed_with", e.mixed_with}};
-}
-
-Json weakest_json(const std::pair<std::string, double>& w) {
-  return {{"name", w.first}, {"weight", number_or_null(w.second)}};
-}
-
-Json excitation_json(const Excitation& e) {
-  return {{"joints", list_of<Json>(e.joints, joint_json)},
-          {"parameters", list_of<Json>(e.parameters, parameter_json)},
-          {"weakest", list_of<Json>(e.weakest, weakest_json)}};
-}
-
-Excitation excitation_from(const Json& j) {
-  Excitation e;
-  for (const Json& joint : j.at("joints")) e.joints.push_back(joint_from(joint));
-  for (const Json& p : j.at("parameters"))
-    e.parameters.push_back({p.at("name"), number_or_nan(p.at("own")), p.at("mixed_with")});
-  for (const Json& w : j.at("weakest")) e.weakest.emplace_back(w.at("name"), number_or_nan(w.at("weight")));
-  return e;
-}
-
-Json value_json(const LogValue& v) {
-  return {{"log", v.log + 1},
-          {"value", number_or_null(v.value)},
-          {"std", number_or_null(v.std)},
-          {"ci95", {number_or_null(v.ci95[0]), number_or_null(v.ci95[1])}}};
-}
-
-LogValue value_from(const Json& j) {
-  return {j.at("log").get<int>() - 1,
-          number_or_nan(j.at("value")),
-          number_or_nan(j.at("std")),
-          {number_or_nan(j.at("ci95").at(0)), number_or_nan(j.at("ci95").at(1))}};
-}
-
-Json trend_json(const ParameterTrend& t) {
-  return {{"name", t.name},
-          {"unit", t.unit},
-          {"by_log", list_of<Json>(t.by_log, value_json)},
-          {"mean", number_or_null(t.mean)},
-          {"chi_square", number_or_null(t.chi_square)},
-          {"p_same", number_or_null(t.p_same)},
-          {"slope", number_or_null(t.slope)},
-          {"slope_std", number_or_null(t.slope_std)},
-          {"p_level", number_or_null(t.p_level)},
-          {"differs", t.differs},
-          {"drifts", t.drifts}};
-}
-
-ParameterTrend trend_from(const Json& j) {
-  ParameterTrend t;
-  t.name = j.at("name");
-  t.unit = j.at("unit");
-  for (const Json& value : j.at("by_log")) t.by_log.push_back(value_from(value));
-  t.mean = number_or_nan(j.at("mean"));
-  t.chi_square = number_or_nan(j.at("chi_square"));
-  t.p_same = number_or_nan(j.at("p_same"));
-  t.slope = number_or_nan(j.at("slope"));
-  t.slope_std = number_or_nan(j.at("slope_std"));
-  t.p_level = number_or_nan(j.at("p_level"));
-  t.differs = j.at("differs");
-  t.drifts = j.at("drifts");
-  return t;
-}
-
-/// Adds the patterns of the residual, the excitation and the trends of the parameters.
-void add_verdicts(const Identification& id, Json& document) {
-  document["residual_repeats_with"] = list_of<Json>(id.residual_patterns, pattern_json);
-  document["excitation"] = excitation_json(id.excitation);
-  document["trend"] = list_of<Json>(id.trends, trend_json);
-}
-
-void read_verdicts(const Json& document, Identification& id) {
-  for (const Json& p : document.at("residual_repeats_with")) id.residual_patterns.push_back(pattern_from(p));
-  id.excitation = excitation_from(document.at("excitation"));
-  for (const Json& t : document.at("trend")) id.trends.push_back(trend_from(t));
+    refuse_term(name_of(term.kind), where);
 }
 
 template <typename Enum>
@@ -231,80 +52,191 @@ Enum enum_from(const std::string& name, std::initializer_list<Enum> all, const s
               fmt::format("\"{}\" is no status or method of this version; identify again", name));
 }
 
-Identification read_summary(const Json& j, const std::string& where) {
+IdentificationStatus status_from(const std::string& name, const std::string& where) {
   using Status = IdentificationStatus;
-  using Method = IdentifyMethod;
-  Identification id;
-  id.status = enum_from(j.at("status").get<std::string>(),
-                        {Status::not_run, Status::converged, Status::not_converged, Status::poorly_excited,
-                         Status::poorly_explained, Status::unexplained},
-                        where);
-  id.reason = j.at("reason");
-  id.method = enum_from(j.at("method").get<std::string>(),
-                        {Method::automatic, Method::weak_form, Method::output_error}, where);
-  for (const Json& p : j.at("base_parameters")) id.base_parameters.push_back(parameter_from(p));
-  for (const Json& p : j.at("physical_parameters")) id.physical_parameters.push_back(parameter_from(p));
-  id.q_noise = numbers_or_nan(j.at("q_noise"));
-  id.dq_noise = numbers_or_nan(j.at("dq_noise"));
-  id.condition_number = number_or_nan(j.at("condition_number"));
-  id.residual_rms = numbers_or_nan(j.at("residual_rms"));
-  id.fit_r2 = numbers_or_nan(j.at("fit_r2"));
-  id.held_out_r2 = numbers_or_nan(j.at("held_out_r2"));
-  for (const Json& term : j.at("terms")) id.terms.push_back(term_from(term));
-  id.torque_delay_s = numbers_or_nan(j.at("torque_delay_s"));
-  id.between_logs_std = numbers_or_nan(j.at("between_logs_std"));
-  for (const Json& log : j.at("logs")) id.logs.push_back(log_from(log));
-  return id;
+  return enum_from(name,
+                   {Status::not_run, Status::converged, Status::not_converged, Status::poorly_excited,
+                    Status::poorly_explained, Status::unexplained},
+                   where);
 }
 
-Identification read(const Json& j, const std::string& where) {
-  Identification id = read_summary(j, where);
-  read_verdicts(j, id);
-  const Json& state = j.at("state");
-  id.robot = robot_from_toml(state.at("robot_file").get<std::string>(), where);
-  id.space = parameter_space(id.robot);
-  id.space.extra.clear();
-  for (const Json& term : state.at("extra")) id.space.extra.push_back(extra_from(term, id.robot, where));
-  const auto estimate = numbers_or_nan(state.at("estimate")),
-             covariance = numbers_or_nan(state.at("covariance"));
-  const auto count = static_cast<std::size_t>(id.space.count());
-  if (estimate.size() != count || covariance.size() != count * count)
-    throw Error(ErrorCode::input, where,
-                fmt::format("holds {} parameters, its robot has {}; identify again", estimate.size(), count));
-  id.estimate = Eigen::Map<const Eigen::VectorXd>(estimate.data(), id.space.count());
-  id.covariance = Eigen::Map<const Eigen::MatrixXd>(covariance.data(), id.space.count(), id.space.count());
-  return id;
+IdentifyMethod method_from(const std::string& name, const std::string& where) {
+  using Method = IdentifyMethod;
+  return enum_from(name, {Method::automatic, Method::weak_form, Method::output_error}, where);
+}
+
+/// The parameters in the file, which belong to the robot in it.
+struct State {
+  std::string robot_file;
+  std::vector<ExtraTerm> extra;
+  std::vector<double> estimate, covariance;
+};
+
+void fields(auto& v, MaybeConst<State> auto& state) {
+  v("robot_file", state.robot_file);
+  v("extra", state.extra);
+  v("estimate", state.estimate);
+  v("covariance", state.covariance);
 }
 
 }  // namespace
 
-nlohmann::ordered_json summary_to_json(const Identification& id) {
-  return {{"schema", kSchema},
-          {"status", to_string(id.status)},
-          {"reason", id.reason},
-          {"method", to_string(id.method)},
-          {"base_parameters", list_of<Json>(id.base_parameters, parameter)},
-          {"physical_parameters", list_of<Json>(id.physical_parameters, parameter)},
-          {"condition_number", number_or_null(id.condition_number)},
-          {"residual_rms", numbers_or_null(id.residual_rms)},
-          {"fit_r2", numbers_or_null(id.fit_r2)},
-          {"held_out_r2", numbers_or_null(id.held_out_r2)},
-          {"terms", list_of<Json>(id.terms, term_json)},
-          {"torque_delay_s", numbers_or_null(id.torque_delay_s)},
-          {"between_logs_std", numbers_or_null(id.between_logs_std)},
-          {"q_noise", numbers_or_null(id.q_noise)},
-          {"dq_noise", numbers_or_null(id.dq_noise)},
-          {"logs", list_of<Json>(id.logs, log_json)}};
+void fields(auto& v, MaybeConst<ParameterEstimate> auto& e) {
+  v("name", e.name);
+  v("value", e.value);
+  v("std", e.std);
+  v("ci95", e.ci95);
+  v("unit", e.unit);
+  v("identifiable", e.identifiable);
+  v("why_not", e.why_not);
+  v.unless_empty("meaning", e.meaning);
 }
 
-nlohmann::ordered_json to_json(const Identification& id) {
-  nlohmann::ordered_json json = summary_to_json(id);
-  add_verdicts(id, json);
-  json["state"] = state_json(id);
-  return json;
+void fields(auto& v, MaybeConst<IdentifiedLog> auto& log) {
+  v("path", log.path);
+  v("sha256", log.sha256);
+  v("rows", log.rows);
+  v("rows_used", log.rows_used);
+  v("sample_period_s", log.sample_period_s);
+  v("payload_kg", log.payload_kg);
+  v("fit_r2", log.fit_r2);
+  v("left_out", log.left_out);
+}
+
+void fields(auto& v, MaybeConst<ModelTerm> auto& term) {
+  v("name", term.name);
+  v.from_one("joint", term.joint);
+  v("kept", term.kept);
+  v("held_out_without", term.error_before);
+  v("held_out_with", term.error_after);
+}
+
+void fields(auto& v, MaybeConst<ExtraTerm> auto& term) {
+  v.as("kind", term.kind, name_of, extra_kind_from);
+  v.from_one("joint", term.joint);
+  v("index", term.index);
+}
+
+void fields(auto& v, MaybeConst<ResidualPattern> auto& p) {
+  v("position", p.position);
+  v("speed", p.speed);
+  v("torque", p.torque);
+  v("previous", p.previous);
+  v("spectrum_hz", p.spectrum_hz);
+  v("spectrum", p.spectrum);
+}
+
+void fields(auto& v, MaybeConst<JointExcitation> auto& e) {
+  v("q_low", e.q_low);
+  v("q_high", e.q_high);
+  v("fastest_forward", e.fastest_forward);
+  v("fastest_back", e.fastest_back);
+  v("forward", e.forward);
+  v("lacks", e.lacks);
+}
+
+void fields(auto& v, MaybeConst<ParameterExcitation> auto& e) {
+  v("name", e.name);
+  v("own", e.own);
+  v("mixed_with", e.mixed_with);
+}
+
+void fields(auto& v, MaybeConst<Excitation> auto& e) {
+  v("joints", e.joints);
+  v("parameters", e.parameters);
+  v.list("weakest", e.weakest, [](auto& inner, auto& weakest) {
+    inner("name", weakest.first);
+    inner("weight", weakest.second);
+  });
+}
+
+void fields(auto& v, MaybeConst<LogValue> auto& value) {
+  v.from_one("log", value.log);
+  v("value", value.value);
+  v("std", value.std);
+  v("ci95", value.ci95);
+}
+
+void fields(auto& v, MaybeConst<ParameterTrend> auto& t) {
+  v("name", t.name);
+  v("unit", t.unit);
+  v("by_log", t.by_log);
+  v("mean", t.mean);
+  v("chi_square", t.chi_square);
+  v("p_same", t.p_same);
+  v("slope", t.slope);
+  v("slope_std", t.slope_std);
+  v("p_level", t.p_level);
+  v("differs", t.differs);
+  v("drifts", t.drifts);
+}
+
+/// The summary, for display.
+void fields(auto& v, MaybeConst<Identification> auto& id) {
+  v.named("status", id.status, status_from);
+  v("reason", id.reason);
+  v.named("method", id.method, method_from);
+  v("base_parameters", id.base_parameters);
+  v("physical_parameters", id.physical_parameters);
+  v("condition_number", id.condition_number);
+  v("residual_rms", id.residual_rms);
+  v("fit_r2", id.fit_r2);
+  v("held_out_r2", id.held_out_r2);
+  v("terms", id.terms);
+  v("torque_delay_s", id.torque_delay_s);
+  v("between_logs_std", id.between_logs_std);
+  v("q_noise", id.q_noise);
+  v("dq_noise", id.dq_noise);
+  v("logs", id.logs);
 }
 
 namespace {
+
+/// The patterns of the residual, the excitation and the trends of the parameters.
+void verdict_fields(auto& v, MaybeConst<Identification> auto& id) {
+  v("residual_repeats_with", id.residual_patterns);
+  v("excitation", id.excitation);
+  v("trend", id.trends);
+}
+
+void write_summary(FieldWriter<Json>& writer, const Identification& id) {
+  writer("schema", kSchema);
+  fields(writer, id);
+}
+
+State state_of(const Identification& id) {
+  return {robot_file_text(id.robot),
+          id.space.extra,
+          {id.estimate.data(), id.estimate.data() + id.estimate.size()},
+          {id.covariance.data(), id.covariance.data() + id.covariance.size()}};
+}
+
+void restore(const State& state, const std::string& where, Identification& id) {
+  id.robot = robot_from_toml(state.robot_file, where);
+  id.space = parameter_space(id.robot);
+  for (const ExtraTerm& term : state.extra) check_term(term, id.robot, where);
+  id.space.extra = state.extra;
+  const auto count = static_cast<std::size_t>(id.space.count());
+  if (state.estimate.size() != count || state.covariance.size() != count * count)
+    throw Error(
+        ErrorCode::input, where,
+        fmt::format("holds {} parameters, its robot has {}; identify again", state.estimate.size(), count));
+  const int n = id.space.count();
+  id.estimate = Eigen::Map<const Eigen::VectorXd>(state.estimate.data(), n);
+  id.covariance = Eigen::Map<const Eigen::MatrixXd>(state.covariance.data(), n, n);
+}
+
+Identification read_summary(const Json& document, const std::string& where) {
+  return fields_from_json<Identification>(document, where);
+}
+
+Identification read(const Json& document, const std::string& where) {
+  Identification id = read_summary(document, where);
+  FieldReader<Json> reader(document, where);
+  verdict_fields(reader, id);
+  restore(fields_from_json<State>(document.at("state"), where), where, id);
+  return id;
+}
 
 template <typename Read>
 Identification checked(const Json& document, const std::string& where, Read read_document) {
@@ -319,6 +251,20 @@ Identification checked(const Json& document, const std::string& where, Read read
 }
 
 }  // namespace
+
+nlohmann::ordered_json summary_to_json(const Identification& id) {
+  FieldWriter<Json> writer;
+  write_summary(writer, id);
+  return writer.json();
+}
+
+nlohmann::ordered_json to_json(const Identification& id) {
+  FieldWriter<Json> writer;
+  write_summary(writer, id);
+  verdict_fields(writer, id);
+  writer("state", state_of(id));
+  return writer.json();
+}
 
 Identification identification_from_json(const nlohmann::ordered_json& document, const std::string& where) {
   return checked(document, where, read);
