@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
+#include "lib/core/json/json_fields.hpp"
 
 namespace faultline {
 namespace {
@@ -26,6 +27,18 @@ Quantity quantity_from(const std::string& name, const std::string& where) {
   const auto channel = canonical_channel(name + "1");
   if (channel) return channel->quantity;
   throw Error(ErrorCode::input, where, "has a relation of the unknown signal \"" + name + "\"");
+}
+
+std::vector<std::string> names_of(const std::vector<Quantity>& quantities) {
+  std::vector<std::string> names;
+  for (const Quantity quantity : quantities) names.push_back(name_of(quantity));
+  return names;
+}
+
+std::vector<Quantity> quantities_from(const std::vector<std::string>& names, const std::string& where) {
+  std::vector<Quantity> quantities;
+  for (const std::string& name : names) quantities.push_back(quantity_from(name, where));
+  return quantities;
 }
 
 bool all_finite(const std::vector<double>& values) {
@@ -51,72 +64,47 @@ bool fits(const SignalRelation& relation, int joints) {
          all_finite(relation.weights) && all_finite(relation.term_low) && all_finite(relation.term_high);
 }
 
-nlohmann::json to_json(const SignalRelation& relation) {
-  nlohmann::json inputs = nlohmann::json::array(), windows = nlohmann::json::array();
-  for (const Quantity input : relation.inputs) inputs.push_back(name_of(input));
-  for (const WindowLimit& window : relation.windows)
-    windows.push_back({{"window_s", window.window_s}, {"std", window.std}, {"limit", window.limit}});
-  return {{"kind", to_string(relation.kind)},
-          {"joint", relation.joint + 1},
-          {"target", name_of(relation.target)},
-          {"inputs", inputs},
-          {"lags", relation.lags},
-          {"stride", relation.stride},
-          {"rate_limit", relation.rate_limit},
-          {"period_s", relation.period_s},
-          {"weights", relation.weights},
-          {"low", relation.low},
-          {"high", relation.high},
-          {"term_low", relation.term_low},
-          {"term_high", relation.term_high},
-          {"r2", relation.r2},
-          {"windows", windows},
-          {"offset_range", relation.offset_range},
-          {"gain_range", relation.gain_range}};
-}
-
-SignalRelation relation_from_json(const nlohmann::json& json, const std::string& where) {
-  SignalRelation relation;
-  relation.kind = relation_kind_from(json.at("kind"), where);
-  relation.joint = json.at("joint").get<int>() - 1;
-  relation.target = quantity_from(json.at("target"), where);
-  for (const auto& input : json.at("inputs")) relation.inputs.push_back(quantity_from(input, where));
-  relation.lags = json.at("lags");
-  relation.stride = json.at("stride");
-  relation.rate_limit = json.at("rate_limit");
-  relation.period_s = json.at("period_s");
-  relation.weights = json.at("weights").get<std::vector<double>>();
-  relation.low = json.at("low");
-  relation.high = json.at("high");
-  relation.term_low = json.at("term_low").get<std::vector<double>>();
-  relation.term_high = json.at("term_high").get<std::vector<double>>();
-  relation.r2 = json.at("r2");
-  for (const auto& window : json.at("windows"))
-    relation.windows.push_back({window.at("window_s"), window.at("std"), window.at("limit")});
-  relation.offset_range = json.at("offset_range");
-  relation.gain_range = json.at("gain_range");
-  return relation;
-}
-
 }  // namespace
 
+void fields(auto& v, MaybeConst<WindowLimit> auto& window) {
+  v("window_s", window.window_s);
+  v("std", window.std);
+  v("limit", window.limit);
+}
+
+void fields(auto& v, MaybeConst<SignalRelation> auto& relation) {
+  v.named("kind", relation.kind, relation_kind_from);
+  v.from_one("joint", relation.joint);
+  v.as("target", relation.target, name_of, quantity_from);
+  v.as("inputs", relation.inputs, names_of, quantities_from);
+  v("lags", relation.lags);
+  v("stride", relation.stride);
+  v("rate_limit", relation.rate_limit);
+  v("period_s", relation.period_s);
+  v("weights", relation.weights);
+  v("low", relation.low);
+  v("high", relation.high);
+  v("term_low", relation.term_low);
+  v("term_high", relation.term_high);
+  v.finite("r2", relation.r2);
+  v("windows", relation.windows);
+  v("offset_range", relation.offset_range);
+  v("gain_range", relation.gain_range);
+}
+
 nlohmann::json relations_to_json(const std::vector<SignalRelation>& relations) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const SignalRelation& relation : relations) list.push_back(to_json(relation));
-  return list;
+  return fields_to_json<nlohmann::json>(relations);
 }
 
 std::vector<SignalRelation> relations_from_json(const nlohmann::json& list, int joints,
                                                 const std::string& where) {
-  std::vector<SignalRelation> relations;
-  for (const auto& json : list) {
-    relations.push_back(relation_from_json(json, where));
-    if (!fits(relations.back(), joints))
+  auto relations = fields_from_json<std::vector<SignalRelation>>(list, where);
+  for (std::size_t i = 0; i < relations.size(); ++i)
+    if (!fits(relations[i], joints))
       throw Error(
           ErrorCode::input, where,
           fmt::format("has an inconsistent relation between signals (entry {}); learn the model again",
-                      relations.size()));
-  }
+                      i + 1));
   return relations;
 }
 
