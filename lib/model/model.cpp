@@ -7,8 +7,10 @@
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/core/json/json_depth.hpp"
+#include "lib/core/json/json_fields.hpp"
 #include "lib/core/json/json_matrix.hpp"
-#include "lib/core/json_values.hpp"
+#include "lib/core/json_members.hpp"
+#include "lib/fault/label_fields.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/model/explain_model_json.hpp"
 #include "lib/model/model_ranges.hpp"
@@ -24,58 +26,72 @@ namespace {
 constexpr std::size_t kLargestModel = 64 << 20;           // bytes
 constexpr const char* kLearnedFromTracking = "tracking";  // learned from logs without torque: no mechanics
 
-nlohmann::json validation_to_json(const Validation& validation) {
-  nlohmann::json rows = nlohmann::json::array();
-  for (const ValidationRow& row : validation.rows)
-    rows.push_back({{"kind", to_string(row.kind)},
-                    {"runs", row.runs},
-                    {"detected", row.detected},
-                    {"right_kind", row.right_kind},
-                    {"right_joint", row.right_joint},
-                    {"right_kind_and_joint", row.right_kind_and_joint},
-                    {"right_or_named", row.right_or_named},
-                    {"median_delay_s", number_or_null(row.median_delay_s)},
-                    {"p90_delay_s", number_or_null(row.p90_delay_s)}});
-  nlohmann::json reach = nlohmann::json::array();
-  for (const Detectability& each : validation.reach)
-    reach.push_back({{"kind", to_string(each.label.kind)},
-                     {"joint", each.label.joint},
-                     {"runs", each.runs},
-                     {"found", each.found},
-                     {"size", number_or_null(each.size)},
-                     {"least_size", number_or_null(each.least_size)},
-                     {"median_delay_s", number_or_null(each.median_delay_s)}});
-  return {{"rows", rows},
-          {"reach", reach},
-          {"early_alarms", validation.early_alarms},
-          {"healthy_hours", validation.healthy_hours},
-          {"false_alarms", validation.false_alarms},
-          {"raw_confidence_error", number_or_null(validation.raw_confidence_error)},
-          {"confidence_error", number_or_null(validation.confidence_error)}};
+nlohmann::json json_of_classifier(const SampleClassifier& classifier) { return classifier; }
+
+}  // namespace
+
+void fields(auto& v, MaybeConst<ValidationRow> auto& row) {
+  v.named("kind", row.kind, fault_kind_from);
+  v("runs", row.runs);
+  v("detected", row.detected);
+  v("right_kind", row.right_kind);
+  v("right_joint", row.right_joint);
+  v("right_kind_and_joint", row.right_kind_and_joint);
+  v("right_or_named", row.right_or_named);
+  v("median_delay_s", row.median_delay_s);
+  v("p90_delay_s", row.p90_delay_s);
 }
 
-/// Throws the exceptions of nlohmann::json, and Error(usage) for an unknown kind.
-Validation validation_from_json(const nlohmann::json& json) {
-  Validation validation;
-  for (const auto& row : json.at("rows"))
-    validation.rows.push_back({fault_kind_from(row.at("kind")), row.at("runs"), row.at("detected"),
-                               row.at("right_kind"), row.at("right_joint"), row.at("right_kind_and_joint"),
-                               row.at("right_or_named"), number_or_nan(row.at("median_delay_s")),
-                               number_or_nan(row.at("p90_delay_s"))});
-  for (const auto& each : json.at("reach"))
-    validation.reach.push_back({{fault_kind_from(each.at("kind")), each.at("joint")},
-                                each.at("runs"),
-                                each.at("found"),
-                                number_or_nan(each.at("size")),
-                                number_or_nan(each.at("least_size")),
-                                number_or_nan(each.at("median_delay_s"))});
-  validation.early_alarms = json.at("early_alarms");
-  validation.healthy_hours = json.at("healthy_hours");
-  validation.false_alarms = json.at("false_alarms");
-  validation.raw_confidence_error = number_or_nan(json.at("raw_confidence_error"));
-  validation.confidence_error = number_or_nan(json.at("confidence_error"));
-  return validation;
+void fields(auto& v, MaybeConst<Detectability> auto& each) {
+  fields(v, each.label);
+  v("runs", each.runs);
+  v("found", each.found);
+  v("size", each.size);
+  v("least_size", each.least_size);
+  v("median_delay_s", each.median_delay_s);
 }
+
+void fields(auto& v, MaybeConst<Validation> auto& validation) {
+  v("rows", validation.rows);
+  v("reach", validation.reach);
+  v("early_alarms", validation.early_alarms);
+  v.finite("healthy_hours", validation.healthy_hours);
+  v("false_alarms", validation.false_alarms);
+  v("raw_confidence_error", validation.raw_confidence_error);
+  v("confidence_error", validation.confidence_error);
+}
+
+void fields(auto& v, MaybeConst<ModelSource> auto& source) {
+  v("path", source.path);
+  v("sha256", source.sha256);
+  v("rows", source.rows);
+  v("fault", source.fault);
+}
+
+void fields(auto& v, MaybeConst<ModelEdit> auto& edit) {
+  v("digest_before", edit.digest_before);
+  v("why", edit.why);
+}
+
+void fields(auto& v, MaybeConst<CriterionOptions> auto& options) {
+  v("g", options.g);
+  v.finite("threshold", options.threshold);
+  v.finite("sample_cap", options.sample_cap);
+}
+
+void fields(auto& v, MaybeConst<SampleMode> auto& samples) {
+  v.as("classifier", samples.classifier, json_of_classifier, sample_classifier_from_json);
+  v("consecutive", samples.consecutive);
+  v("log_odds", samples.log_odds);
+}
+
+void fields(auto& v, MaybeConst<ConfidenceCalibration> auto& calibration) {
+  v.finite("slope", calibration.slope);
+  v.finite("shift", calibration.shift);
+  v.finite("most", calibration.most);
+}
+
+namespace {
 
 /// Calls visit(key, vector) for every list with one number for each joint.
 template <typename Usual, typename Visit>
@@ -123,68 +139,21 @@ UsualMotion usual_motion_from_json(const nlohmann::json& json, int joints, const
   return usual;
 }
 
-nlohmann::json sources_to_json(const std::vector<ModelSource>& sources) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const ModelSource& source : sources)
-    list.push_back(
-        {{"path", source.path}, {"sha256", source.sha256}, {"rows", source.rows}, {"fault", source.fault}});
-  return list;
-}
-
-nlohmann::json criterion_to_json(const CriterionOptions& options) {
-  return {{"g", options.g}, {"threshold", options.threshold}, {"sample_cap", options.sample_cap}};
-}
-
-CriterionOptions criterion_from_json(CriterionKind kind, const nlohmann::json& json) {
-  return {kind, json.at("g").get<int>(), json.at("threshold").get<double>(),
-          json.at("sample_cap").get<double>()};
-}
-
-nlohmann::json samples_to_json(const SampleMode& samples) {
-  nlohmann::json classifier;
-  to_json(classifier, samples.classifier);
-  return {{"classifier", classifier},
-          {"consecutive", criterion_to_json(samples.consecutive)},
-          {"log_odds", criterion_to_json(samples.log_odds)}};
-}
-
-SampleMode samples_from_json(const nlohmann::json& json, const std::string& where) {
-  return {sample_classifier_from_json(json.at("classifier"), where),
-          criterion_from_json(CriterionKind::consecutive, json.at("consecutive")),
-          criterion_from_json(CriterionKind::log_odds, json.at("log_odds"))};
-}
-
-nlohmann::json calibration_to_json(const ConfidenceCalibration& calibration) {
-  return {{"slope", calibration.slope}, {"shift", calibration.shift}, {"most", calibration.most}};
-}
-
-ConfidenceCalibration calibration_from_json(const nlohmann::json& json) {
-  return {json.at("slope").get<double>(), json.at("shift").get<std::array<double, kConfidenceSources>>(),
-          json.at("most").get<double>()};
-}
-
-/// Reads the identity of the model, its edits and its doubts.
-void read_origin(const nlohmann::json& json, Model& model) {
-  model.identity = json.at("identity").get<std::string>();
-  model.doubts = json.value("doubts", std::vector<std::string>{});
-  model.grave_doubts = json.value("grave_doubts", std::vector<std::string>{});
-  if (json.contains("edited"))
-    for (const auto& edit : json["edited"])
-      model.edits.push_back({edit.at("digest_before").get<std::string>(), edit.at("why").get<std::string>()});
-}
-
 Model read_members(const nlohmann::json& json, const std::string& where) {
   Model model;
   model.name = json.at("name").get<std::string>();
   model.robot = robot_from_toml(json.at("robot").get<std::string>(), where + ", robot");
   check_robot_ranges(model.robot, where);
-  read_origin(json, model);
-  model.sample_period_s = json.at("sample_period_s");
-  model.has_velocity = json.at("has_velocity");
+  FieldReader<nlohmann::json> reader(json, where);
+  reader("identity", model.identity);
+  reader.unless_empty("doubts", model.doubts);
+  reader.unless_empty("grave_doubts", model.grave_doubts);
+  reader.unless_empty("edited", model.edits);
+  reader.finite("sample_period_s", model.sample_period_s);
+  reader("has_velocity", model.has_velocity);
+  reader("sources", model.sources);
   if (json.contains("relations"))
     model.relations = relations_from_json(json["relations"], model.robot.joints(), where);
-  for (const auto& source : json.at("sources"))
-    model.sources.push_back({source.at("path"), source.at("sha256"), source.at("rows"), source.at("fault")});
   if (json.contains("learned_from") && json["learned_from"] == kLearnedFromTracking) {
     if (model.relations.empty())
       throw Error(ErrorCode::input, where,
@@ -197,25 +166,22 @@ Model read_members(const nlohmann::json& json, const std::string& where) {
   model.labels = labels_of(model.robot);
   model.residual = residual_generator_from_json(json.at("residual"), model.robot.chain, where);
   model.episode_classifier = episode_classifier_from_json(json.at("judges"), where);
-  model.confidence = calibration_from_json(json.at("confidence"));
-  model.samples = samples_from_json(json.at("samples"), where);
-  model.validation = validation_from_json(json.at("validation"));
+  reader("confidence", model.confidence);
+  reader("samples", model.samples);
+  reader("validation", model.validation);
   model.twin = twin_from_json(nlohmann::ordered_json(json.at("twin")), where);
   return model;
 }
 
 void add_mechanics(const Model& model, nlohmann::ordered_json& json) {
-  nlohmann::json residual, judges;
-  to_json(residual, model.residual);
-  to_json(judges, model.episode_classifier);
   json["twin"] = twin_to_json(model.twin);
-  json["validation"] = validation_to_json(model.validation);
+  json["validation"] = fields_to_json<nlohmann::json>(model.validation);
   json["explain"] = explain_model_to_json(model.explain);
   json["motion"] = usual_motion_to_json(model.motion);
-  json["residual"] = residual;
-  json["judges"] = judges;
-  json["confidence"] = calibration_to_json(model.confidence);
-  json["samples"] = samples_to_json(model.samples);
+  json["residual"] = nlohmann::json(model.residual);
+  json["judges"] = nlohmann::json(model.episode_classifier);
+  json["confidence"] = fields_to_json<nlohmann::json>(model.confidence);
+  json["samples"] = fields_to_json<nlohmann::json>(model.samples);
 }
 
 }  // namespace
@@ -232,11 +198,10 @@ std::string model_to_json(const Model& model) {
   if (!model.grave_doubts.empty()) json["grave_doubts"] = model.grave_doubts;
   json["sample_period_s"] = model.sample_period_s;
   json["has_velocity"] = model.has_velocity;
-  json["sources"] = sources_to_json(model.sources);
+  json["sources"] = fields_to_json<nlohmann::json>(model.sources);
   if (model.has_mechanics()) add_mechanics(model, json);
   if (!model.relations.empty()) json["relations"] = relations_to_json(model.relations);
-  for (const ModelEdit& edit : model.edits)
-    json["edited"].push_back({{"digest_before", edit.digest_before}, {"why", edit.why}});
+  if (!model.edits.empty()) json["edited"] = fields_to_json<nlohmann::json>(model.edits);
   return sealed_model_text(json);
 }
 

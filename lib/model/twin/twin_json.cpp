@@ -4,20 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
+#include "lib/core/json/json_fields.hpp"
 #include "lib/model/twin/twin_fields.hpp"
 
 namespace faultline {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json value_to_json(double value) { return value; }
-Json value_to_json(int value) { return value; }
-Json value_to_json(const DrawRange& range) {
-  Json json{{"low", range.low}, {"high", range.high}, {"spread", to_string(range.spread)}};
-  if (range.either_sign) json["either_sign"] = true;
-  return json;
-}
 
 Spread spread_from(const std::string& name) {
   for (const Spread spread : {Spread::uniform, Spread::log_uniform})
@@ -26,28 +19,33 @@ Spread spread_from(const std::string& name) {
               "is \"" + name + "\", expected \"uniform\" or \"log_uniform\"; learn the model again");
 }
 
-void read(const Json& json, double& value) { value = json.get<double>(); }
-void read(const Json& json, int& value) { value = json.get<int>(); }
-void read(const Json& json, DrawRange& range) {
-  range = {json.at("low").get<double>(), json.at("high").get<double>(),
-           spread_from(json.at("spread").get<std::string>()), json.value("either_sign", false)};
+}  // namespace
+
+void fields(auto& v, MaybeConst<DrawRange> auto& range) {
+  v("low", range.low);
+  v("high", range.high);
+  v.named("spread", range.spread, spread_from);
+  v.unless_empty("either_sign", range.either_sign);
 }
+
+namespace {
 
 Json fault_to_json(const FaultDescription& fault, const TwinFault& twin) {
   Json sizes = Json::array();
   for (int s = 0; s < fault.size_count; ++s) {
-    Json size = value_to_json(twin.size[s]);
+    Json size = fields_to_json<Json>(twin.size[s]);
     size["of"] = usual_of(fault.size[s].measure);
     sizes.push_back(size);
   }
   Json json{{"size", sizes}};
-  if (fault.passes) json["length_s"] = value_to_json(twin.length_s);
+  if (fault.passes) json["length_s"] = fields_to_json<Json>(twin.length_s);
   return json;
 }
 
 void read_fault(const Json& json, const FaultDescription& fault, TwinFault& twin) {
-  for (int s = 0; s < fault.size_count; ++s) read(json.at("size").at(s), twin.size[s]);
-  if (fault.passes) read(json.at("length_s"), twin.length_s);
+  for (int s = 0; s < fault.size_count; ++s)
+    twin.size[s] = fields_from_json<DrawRange>(json.at("size").at(s), "size");
+  if (fault.passes) twin.length_s = fields_from_json<DrawRange>(json.at("length_s"), "length_s");
 }
 
 bool has_size(FaultKind kind) { return kind != FaultKind::unknown && describe(kind).size_count > 0; }
@@ -55,9 +53,9 @@ bool has_size(FaultKind kind) { return kind != FaultKind::unknown && describe(ki
 }  // namespace
 
 Json twin_to_json(const TwinOptions& options) {
-  Json json;
-  visit_twin_fields(
-      options, [&](const char* key, const auto& value, const char*) { json[key] = value_to_json(value); });
+  FieldWriter<Json> writer;
+  visit_twin_fields(options, [&](const char* key, const auto& value, const char*) { writer(key, value); });
+  Json json = writer.json();
   for (int k = 0; k < kFaultKinds; ++k) {
     const FaultKind kind = static_cast<FaultKind>(k);
     if (has_size(kind)) json["faults"][to_string(kind)] = fault_to_json(describe(kind), options.faults[k]);
@@ -68,7 +66,8 @@ Json twin_to_json(const TwinOptions& options) {
 TwinOptions twin_from_json(const Json& json, const std::string& where) {
   TwinOptions options;
   try {
-    visit_twin_fields(options, [&](const char* key, auto& value, const char*) { read(json.at(key), value); });
+    FieldReader<Json> reader(json, where);
+    visit_twin_fields(options, [&](const char* key, auto& value, const char*) { reader(key, value); });
     for (int k = 0; k < kFaultKinds; ++k) {
       const FaultKind kind = static_cast<FaultKind>(k);
       if (has_size(kind))
