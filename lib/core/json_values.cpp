@@ -15,13 +15,6 @@ double number_in(const AnyJson& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.template get<double>();
 }
 
-template <typename AnyJson>
-std::vector<double> numbers_in(const AnyJson& list) {
-  std::vector<double> values;
-  for (const AnyJson& value : list) values.push_back(number_in(value));
-  return values;
-}
-
 }  // namespace
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -34,9 +27,6 @@ Json count_or_null(std::int64_t count) { return count > 0 ? Json(count) : Json(n
 
 double number_or_nan(const nlohmann::json& value) { return number_in(value); }
 double number_or_nan(const Json& value) { return number_in(value); }
-
-std::vector<double> numbers_or_nan(const nlohmann::json& list) { return numbers_in(list); }
-std::vector<double> numbers_or_nan(const Json& list) { return numbers_in(list); }
 
 std::string text_or_empty(const Json& value) { return value.is_null() ? "" : value.get<std::string>(); }
 

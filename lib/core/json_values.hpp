@@ -26,11 +26,9 @@ Json list_of(const Items& items, Render render) {
   return list;
 }
 
-// Inverse functions of the four above; for any other value they throw what nlohmann::json throws.
+// Inverse functions of those above; for any other value they throw what nlohmann::json throws.
 double number_or_nan(const nlohmann::json& value);
 double number_or_nan(const nlohmann::ordered_json& value);
-std::vector<double> numbers_or_nan(const nlohmann::json& list);
-std::vector<double> numbers_or_nan(const nlohmann::ordered_json& list);
 std::string text_or_empty(const nlohmann::ordered_json& value);
 int count_or_zero(const nlohmann::ordered_json& value);
 

@@ -203,27 +203,7 @@ class FieldReader {
       describe(inner, items.emplace_back());
     }
   }
-  /// Reads the value that the JSON itself is.
-  template <typename T>
-  void whole(T& value) {
-    read(json_, value);
-  }
-
- private:
-  /// Throws what nlohmann::json throws if `json` is no list.
-  static const Json& checked(const Json& json) {
-    if (!json.is_array()) static_cast<void>(json.template get<typename Json::array_t>());
-    return json;
-  }
-
-  template <typename From, typename Stored>
-  auto converted(From from, const Stored& stored) const {
-    if constexpr (std::is_invocable_v<From, const Stored&, const std::string&>)
-      return from(stored, where_);
-    else
-      return from(stored);
-  }
-
+  /// Reads a value that `json` itself is.
   template <typename T>
   void read(const Json& json, T& value) const {
     if constexpr (std::is_same_v<T, double> && !kFinite) {
@@ -249,6 +229,21 @@ class FieldReader {
     }
   }
 
+ private:
+  /// Throws what nlohmann::json throws if `json` is no list.
+  static const Json& checked(const Json& json) {
+    if (!json.is_array()) static_cast<void>(json.template get<typename Json::array_t>());
+    return json;
+  }
+
+  template <typename From, typename Stored>
+  auto converted(From from, const Stored& stored) const {
+    if constexpr (std::is_invocable_v<From, const Stored&, const std::string&>)
+      return from(stored, where_);
+    else
+      return from(stored);
+  }
+
   const Json& json_;
   const std::string& where_;
 };
@@ -263,7 +258,7 @@ Json fields_to_json(const T& value) {
 template <typename T, bool kFinite = false, typename Json>
 T fields_from_json(const Json& json, const std::string& where) {
   T value{};
-  FieldReader<Json, kFinite>(json, where).whole(value);
+  FieldReader<Json, kFinite>(json, where).read(json, value);
   return value;
 }
 
