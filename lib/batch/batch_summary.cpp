@@ -16,7 +16,6 @@
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/core/text.hpp"
-#include "lib/core/utf8.hpp"
 
 namespace faultline {
 namespace {
