@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "lib/identify/extra/find_ripples.hpp"
 #include "lib/identify/weak_form/extra_choice.hpp"
@@ -158,10 +159,10 @@ Tried try_candidates(const Gathered& gathered, const Robot& robot, const ModelDr
   ModelChoice c = draft.choice;
   c.terms.clear();
   c.weak.set.assign(space.joints(), moments.yardstick());
-  choose_extra(chooser, space, draft.wanted.asked, c);
+  c = choose_extra(chooser, space, draft.wanted.asked, std::move(c));
   std::vector<bool> counts;
   for (const bool still : gathered.windows.still) counts.push_back(!still);
-  if (robot.payloads.empty()) choose_gains(chooser, counts, c);
+  if (robot.payloads.empty()) c = choose_gains(chooser, counts, std::move(c));
   Tried out{c.wanted, c.weak.gain, c.terms};
   for (int p = space.extra_begin(); p < space.timing(); ++p)
     out.stay[p] = out.stay[p] || draft.nominal[p] != 0.0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/golden_section.hpp"
@@ -69,8 +70,8 @@ std::vector<bool> with_group(std::vector<bool> wanted, const TermGroup& group) {
   return wanted;
 }
 
-/// Evaluates the gain of the group beside the present choice.
-void judge(const Chooser& chooser, const ModelChoice& c, TermGroup& group) {
+/// Returns the group with its gain beside the present choice.
+TermGroup judged(const Chooser& chooser, const ModelChoice& c, TermGroup group) {
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   const auto error = [&](const std::vector<bool>& wanted) {
     return group.quick ? chooser.quick_error(c.weak, wanted, scale) : chooser.error(c.weak, wanted, scale);
@@ -81,6 +82,7 @@ void judge(const Chooser& chooser, const ModelChoice& c, TermGroup& group) {
   for (const int j : group.joints)
     if (const double gain = gain_of(group.without, group.with, j).mean; gain > group.promise)
       group.promise = gain, group.joint = j;
+  return group;
 }
 
 /// Whether the fit of a group of a single term is physically possible; of larger groups, single terms may
@@ -116,15 +118,15 @@ double best_gain(const Chooser& chooser, const ModelChoice& c, int j) {
 
 }  // namespace
 
-void choose_extra(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
-                  ModelChoice& c) {
+ModelChoice choose_extra(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
+                         ModelChoice c) {
   std::vector<TermGroup> groups = groups_of(space, asked);
-  for (TermGroup& group : groups) judge(chooser, c, group);
+  for (TermGroup& group : groups) group = judged(chooser, c, std::move(group));
   std::stable_sort(groups.begin(), groups.end(),
                    [](const TermGroup& a, const TermGroup& b) { return a.promise > b.promise; });
   bool changed = false;
   for (TermGroup& group : groups) {
-    if (changed) judge(chooser, c, group);
+    if (changed) group = judged(chooser, c, std::move(group));
     const int j = group.joint;
     bool kept = pays(group.without, group.with, j, chooser.torque(c.weak)[j], group.worth);
     for (const int other : group.joints)
@@ -137,9 +139,10 @@ void choose_extra(const Chooser& chooser, const ParameterSpace& space, const std
     if (kept) c.wanted = with_group(c.wanted, group);
     changed = changed || kept;
   }
+  return c;
 }
 
-void choose_gains(const Chooser& chooser, const std::vector<bool>& counts, ModelChoice& c) {
+ModelChoice choose_gains(const Chooser& chooser, const std::vector<bool>& counts, ModelChoice c) {
   const int n = static_cast<int>(counts.size());
   const int first = static_cast<int>(std::find(counts.begin(), counts.end(), true) - counts.begin());
   if (c.weak.gain.empty()) c.weak.gain.assign(n, 1.0);
@@ -164,6 +167,7 @@ void choose_gains(const Chooser& chooser, const std::vector<bool>& counts, Model
                        with.rms()[best], TermKind::candidate});
     if (kept) c.weak = tried;
   }
+  return c;
 }
 
 }  // namespace faultline

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/identify/weak_form/chooser.hpp"
@@ -42,8 +43,8 @@ WeakChoice common_shift(const Chooser& chooser, const ShiftRange& shifts, int jo
 
 /// Chooses the shifts with the other choices given: one for all joints if it lowers the error of any and
 /// raises that of none, then those of single joints that lower their error.
-void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
-                   const std::vector<bool>& wanted, ModelChoice& c) {
+ModelChoice choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
+                          const std::vector<bool>& wanted, ModelChoice c) {
   const Eigen::VectorXd torque = chooser.torque(c.weak);
   const auto error_of = [&](const WeakChoice& w) {
     return chooser.error(w, wanted, chooser.scale(w, wanted));
@@ -76,6 +77,7 @@ void choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
     c.terms.push_back({fmt::format("delay_{}", j + 1), j, c.weak.shift[j] != 0, without.rms()[j],
                        own || c.weak.shift[j] == 0 ? with.rms()[j] : best.rms()[j], TermKind::delay});
   }
+  return c;
 }
 
 /// Excludes friction that is bent or differs by direction: the first shifts are chosen without it.
@@ -85,8 +87,8 @@ std::vector<bool> plain(const ParameterSpace& space, std::vector<bool> wanted) {
 }
 
 /// Adds bent friction, of the width with the smallest residual of its joint, if it lowers the held-out error.
-void choose_bends(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
-                  ModelChoice& c) {
+ModelChoice choose_bends(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
+                         ModelChoice c) {
   for (int j = 0; j < space.joints(); ++j) {
     if (!asked[space.bend(j)]) continue;
     const HeldOutError without = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
@@ -107,9 +109,10 @@ void choose_bends(const Chooser& chooser, const ParameterSpace& space, const std
     c.weak = bent;
     c.wanted = wanted;
   }
+  return c;
 }
 
-void choose_widths(const Chooser& chooser, int joints, ModelChoice& c) {
+ModelChoice choose_widths(const Chooser& chooser, int joints, ModelChoice c) {
   const Eigen::VectorXd torque = chooser.torque(c.weak);
   for (int j = 0; j < joints; ++j) {
     HeldOutError best = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
@@ -122,6 +125,7 @@ void choose_widths(const Chooser& chooser, int joints, ModelChoice& c) {
       c.weak = tried;
     }
   }
+  return c;
 }
 
 /// Returns the covariance of the parameters from friction widths that held-out data do not distinguish from
@@ -149,8 +153,8 @@ Eigen::MatrixXd width_covariance(const Chooser& chooser, const ParameterSpace& s
   return doubt;
 }
 
-void choose_terms(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
-                  const std::vector<bool>& optional, ModelChoice& c) {
+ModelChoice choose_terms(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
+                         const std::vector<bool>& optional, ModelChoice c) {
   for (int p = 0; p < space.extra_begin(); ++p) {
     if (!asked[p] || !optional[p] || (p >= space.bend(0) && p < space.skew(0))) continue;
     std::vector<bool> wanted = c.wanted;
@@ -162,6 +166,7 @@ void choose_terms(const Chooser& chooser, const ParameterSpace& space, const std
     c.terms.push_back({space.name(p), j, kept, without.rms()[j], with.rms()[j]});
     if (kept) c.wanted = wanted;
   }
+  return c;
 }
 
 /// Whether the first choice leaves joint `j` more residual, beyond noise and kWindowWorthIt.
@@ -172,18 +177,19 @@ bool loses(const HeldOutError& with, const HeldOutError& against, int j) {
 
 /// Joints share parameters: windows too short for the velocity noise of one joint spoil the fit of the
 /// others. Lengthens the shortest ones until no joint is worse than with equal windows.
-void lengthen_windows(const Chooser& chooser, int joints, int alike, const HeldOutError& with_alike,
-                      ModelChoice& c) {
+ModelChoice lengthen_windows(const Chooser& chooser, int joints, int alike, const HeldOutError& with_alike,
+                             ModelChoice c) {
   for (;;) {
     const HeldOutError mixed = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
     bool spoilt = false;
     for (int j = 0; j < joints; ++j) spoilt = spoilt || loses(mixed, with_alike, j);
-    if (!spoilt) return;
+    if (!spoilt) return c;
     int& shortest = *std::min_element(c.weak.set.begin(), c.weak.set.end());
     if (shortest >= alike) break;
     ++shortest;
   }
   c.weak.set.assign(joints, alike);
+  return c;
 }
 
 /// Returns the sum of the logarithms of the residuals, so that joints count alike; a still joint has none.
@@ -192,7 +198,7 @@ double sum_of_log_residuals(const HeldOutError& error) {
   return error.rms().array().max(kNothing).unaryExpr(&elementary::log).sum();
 }
 
-void choose_windows(const Chooser& chooser, int sets, int joints, ModelChoice& c) {
+ModelChoice choose_windows(const Chooser& chooser, int sets, int joints, ModelChoice c) {
   std::vector<HeldOutError> errors;
   int alike = 0;
   for (int set = 0; set < sets; ++set) {
@@ -209,7 +215,7 @@ void choose_windows(const Chooser& chooser, int sets, int joints, ModelChoice& c
     for (int set = best - 1; set >= 0; --set)
       if (!loses(errors[set], errors[best], j)) c.weak.set[j] = set;
   }
-  lengthen_windows(chooser, joints, alike, errors[alike], c);
+  return lengthen_windows(chooser, joints, alike, errors[alike], std::move(c));
 }
 
 }  // namespace
@@ -223,15 +229,16 @@ ModelChoice choose_model(const WeakMoments& moments, const ParameterSpace& space
   c.weak = {std::vector<int>(n, moments.yardstick()), std::vector<int>(n, 0), std::vector<int>(n, 0),
             std::vector<int>(n, kWidths - 1)};
   for (std::size_t p = 0; p < asked.size(); ++p) c.wanted.push_back(asked[p] && !optional[p]);
-  choose_shifts(chooser, shifts, n, plain(space, asked), c);
-  choose_widths(chooser, n, c);
-  choose_terms(chooser, space, asked, optional, c);
-  choose_bends(chooser, space, asked, c);
+  c = choose_shifts(chooser, shifts, n, plain(space, asked), std::move(c));
+  c = choose_widths(chooser, n, std::move(c));
+  c = choose_terms(chooser, space, asked, optional, std::move(c));
+  c = choose_bends(chooser, space, asked, std::move(c));
   std::vector<bool> extra = asked;
   for (int p = space.extra_begin(); p < space.timing(); ++p) extra[p] = asked[p] && optional[p];
-  choose_extra(chooser, space, extra, c);
-  choose_shifts(chooser, shifts, n, c.wanted, c);
-  choose_windows(chooser, sets, n, c);
+  c = choose_extra(chooser, space, extra, std::move(c));
+  const std::vector<bool> wanted = c.wanted;
+  c = choose_shifts(chooser, shifts, n, wanted, std::move(c));
+  c = choose_windows(chooser, sets, n, std::move(c));
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   c.held_out = chooser.error(c.weak, c.wanted, scale);
   c.width_covariance = width_covariance(chooser, space, c, scale);
