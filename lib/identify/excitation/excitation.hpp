@@ -7,7 +7,8 @@
 
 namespace faultline {
 
-struct Identification;
+struct JointFit;
+struct ParameterSpace;
 struct TorqueFit;
 
 /// Motion of one joint in the logs.
@@ -40,8 +41,9 @@ struct Excitation {
 };
 
 /// Returns what the motion of the logs determines, by joint and by parameter. `still` are the joints that
-/// never move, from 1. Needs `id.joint_fits` and `id.residual_rms`.
-Excitation motion_excitation(const TorqueFit& torque, const std::vector<int>& still,
-                             const Identification& id);
+/// never move, from 1; `fits` and `residual_rms` are by joint, of the same windows as `torque`.
+Excitation motion_excitation(const TorqueFit& torque, const ParameterSpace& space,
+                             const std::vector<JointFit>& fits, const std::vector<double>& residual_rms,
+                             const std::vector<int>& still);
 
 }  // namespace faultline

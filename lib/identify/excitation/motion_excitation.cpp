@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/identify/excitation/excitation.hpp"
-#include "lib/identify/identification.hpp"
+#include "lib/identify/parameter_space.hpp"
 #include "lib/identify/torque_fit.hpp"
+#include "lib/identify/verdict/joint_fit.hpp"
 
 namespace faultline {
 namespace {
@@ -64,15 +66,15 @@ std::vector<int> judged_columns(const TorqueFit& torque, const ParameterSpace& s
 }
 
 /// Returns the torque residual of each joint, none far smaller than the largest of the same kind of joint.
-Eigen::VectorXd joint_scales(const Identification& id) {
-  const int n = id.space.joints();
-  const auto kind = [&](int j) { return id.space.chain.geometry[j].kind; };
+Eigen::VectorXd joint_scales(const ParameterSpace& space, const std::vector<double>& residual_rms) {
+  const int n = space.joints();
+  const auto kind = [&](int j) { return space.chain.geometry[j].kind; };
   Eigen::VectorXd scale(n);
   for (int j = 0; j < n; ++j) {
     double largest = 0.0;
     for (int k = 0; k < n; ++k)
-      if (kind(k) == kind(j)) largest = std::max(largest, id.residual_rms[k]);
-    scale[j] = std::max({id.residual_rms[j], kLeastScale * largest, 1e-9});
+      if (kind(k) == kind(j)) largest = std::max(largest, residual_rms[k]);
+    scale[j] = std::max({residual_rms[j], kLeastScale * largest, 1e-9});
   }
   return scale;
 }
@@ -148,15 +150,16 @@ void fill_parameters(const ParameterSpace& space, const std::vector<bool>& at_re
 
 }  // namespace
 
-Excitation motion_excitation(const TorqueFit& torque, const std::vector<int>& still,
-                             const Identification& id) {
+Excitation motion_excitation(const TorqueFit& torque, const ParameterSpace& space,
+                             const std::vector<JointFit>& fits, const std::vector<double>& residual_rms,
+                             const std::vector<int>& still) {
   Excitation out;
-  for (int j = 0; j < id.space.joints(); ++j)
-    out.joints.push_back(of_joint(id.joint_fits[j], std::count(still.begin(), still.end(), j + 1) > 0));
-  out.columns = judged_columns(torque, id.space);
-  out.joint_scale = joint_scales(id);
+  for (int j = 0; j < space.joints(); ++j)
+    out.joints.push_back(of_joint(fits[j], std::count(still.begin(), still.end(), j + 1) > 0));
+  out.columns = judged_columns(torque, space);
+  out.joint_scale = joint_scales(space, residual_rms);
   out.moments = moments_of(torque.system, out.columns, out.joint_scale);
-  fill_parameters(id.space, shown_at_rest(torque.system, out.columns, still), out);
+  fill_parameters(space, shown_at_rest(torque.system, out.columns, still), out);
   return out;
 }
 

@@ -161,8 +161,8 @@ void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathere
   id.terms = choice.terms;
   store_delays(choice, gathered, id);
   keep_curves(torque, choice, gathered, residual, id);
-  id.excitation = motion_excitation(torque, still, id);
-  id.trends = parameter_trends(torque, id);
+  id.excitation = motion_excitation(torque, id.space, id.joint_fits, id.residual_rms, still);
+  id.trends = parameter_trends(torque, id.space, id.joint_fits);
   find_unexplained(still, id);
   find_implausible(id);
   std::vector<int> exempt = still;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/core/distributions.hpp"
 
@@ -34,7 +35,7 @@ TrendSums sums_of(const std::vector<LogValue>& values) {
   return s;
 }
 
-void test(ParameterTrend& t) {
+ParameterTrend tested(ParameterTrend t) {
   const TrendSums s = sums_of(t.by_log);
   const int logs = static_cast<int>(t.by_log.size());
   t.mean = s.y;
@@ -51,17 +52,19 @@ void test(ParameterTrend& t) {
   t.slope_std = std::sqrt((scatters ? scatter : 1.0) / s.xx);
   const double ratio = t.slope / t.slope_std;
   t.p_level = scatters ? student_tail(ratio, logs - 2) : normal_tail(ratio);
+  return t;
 }
 
 }  // namespace
 
-void test_trends(std::vector<ParameterTrend>& trends) {
-  for (ParameterTrend& t : trends) test(t);
+std::vector<ParameterTrend> tested_trends(std::vector<ParameterTrend> trends) {
+  for (ParameterTrend& t : trends) t = tested(std::move(t));
   const double level = kFalseFlags / (kTests * std::max<double>(static_cast<double>(trends.size()), 1.0));
   for (ParameterTrend& t : trends) {
     t.differs = t.p_same < level;
     t.drifts = t.p_level < level;
   }
+  return trends;
 }
 
 }  // namespace faultline

@@ -7,7 +7,8 @@
 
 namespace faultline {
 
-struct Identification;
+struct JointFit;
+struct ParameterSpace;
 struct TorqueFit;
 
 /// Estimate of a parameter from one log alone.
@@ -38,16 +39,19 @@ struct ParameterTrend {
 inline constexpr double kFalseFlags = 0.01;
 
 /// Tests each parameter for homogeneity (chi-square) and for a slope in the order of logs, each at
-/// kFalseFlags over the number of tests (Bonferroni). Fills all fields except names and `by_log`.
-void test_trends(std::vector<ParameterTrend>& trends);
+/// kFalseFlags over the number of tests (Bonferroni). Returns the trends with all fields, of which the given
+/// ones need only names and `by_log`.
+std::vector<ParameterTrend> tested_trends(std::vector<ParameterTrend> trends);
 
 /// Returns the estimates from each log alone of every fitted parameter, with the same windows and terms, and
 /// whether they change from log to log. A log counts for a parameter only if its own motion determines it; a
-/// parameter with fewer than three such logs is omitted. Empty with fewer logs. Needs `id.joint_fits`.
+/// parameter with fewer than three such logs is omitted. Empty with fewer logs. `fits`: by joint, of the same
+/// windows as `torque`.
 ///
 /// A variance is the larger of two: from blocks of one log's residual (jackknife), which show model error
 /// where it occurs, and from the residual's autocorrelation over all logs together, which a short log cannot
 /// determine.
-std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const Identification& id);
+std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const ParameterSpace& space,
+                                             const std::vector<JointFit>& fits);
 
 }  // namespace faultline

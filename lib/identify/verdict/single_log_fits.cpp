@@ -4,14 +4,18 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "lib/core/distributions.hpp"
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/identify/identification.hpp"
+#include "lib/identify/parameter_space.hpp"
 #include "lib/identify/residual_blocks.hpp"
 #include "lib/identify/torque_fit.hpp"
+#include "lib/identify/verdict/joint_fit.hpp"
 #include "lib/identify/verdict/parameter_trend.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {
 namespace {
@@ -93,13 +97,14 @@ struct SingleLog {
 };
 
 /// Returns the start time of the window of each row of the system.
-std::vector<double> times_of(const Identification& id) {
+std::vector<double> times_of(const std::vector<JointFit>& fits) {
   std::vector<double> times;
-  for (const JointFit& fit : id.joint_fits) times.insert(times.end(), fit.time_s.begin(), fit.time_s.end());
+  for (const JointFit& fit : fits) times.insert(times.end(), fit.time_s.begin(), fit.time_s.end());
   return times;
 }
 
-void take_rows(const WeakSystem& all, const std::vector<int>& rows, WeakSystem& out) {
+WeakSystem rows_of_log(const WeakSystem& all, const std::vector<int>& rows) {
+  WeakSystem out;
   out.a = all.a(rows, Eigen::all);
   out.y = all.y(rows);
   out.use = all.use(rows);
@@ -109,6 +114,7 @@ void take_rows(const WeakSystem& all, const std::vector<int>& rows, WeakSystem& 
     out.joint.push_back(all.joint[k]);
     out.log.push_back(all.log[k]);
   }
+  return out;
 }
 
 /// Numbers the blocks of one log, which may be shorter than those of all logs.
@@ -138,8 +144,9 @@ void keep_runs(SingleLog& s) {
   }
 }
 
-std::vector<SingleLog> fit_single_logs(const TorqueFit& torque, const Identification& id) {
-  const std::vector<double> times = times_of(id);
+std::vector<SingleLog> fit_single_logs(const TorqueFit& torque, const ParameterSpace& space,
+                                       const std::vector<JointFit>& fits) {
+  const std::vector<double> times = times_of(fits);
   std::map<int, std::vector<int>> rows;
   for (std::size_t k = 0; k < torque.system.log.size(); ++k)
     rows[torque.system.log[k]].push_back(static_cast<int>(k));
@@ -148,10 +155,10 @@ std::vector<SingleLog> fit_single_logs(const TorqueFit& torque, const Identifica
   for (const auto& [log, of_log] : rows) {
     SingleLog& s = singles.emplace_back();
     s.log = log;
-    take_rows(torque.system, of_log, s.system);
+    s.system = rows_of_log(torque.system, of_log);
     for (const int k : of_log) s.time_s.push_back(times[k]);
     number_blocks(s);
-    s.fit = fit_weak_form(s.system, id.space, torque.fit.parameters, torque.wanted);
+    s.fit = fit_weak_form(s.system, space, torque.fit.parameters, torque.wanted);
     keep_runs(s);
   }
   return singles;
@@ -183,14 +190,15 @@ std::vector<std::vector<double>> autocovariances(const std::vector<SingleLog>& s
 
 }  // namespace
 
-std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const Identification& id) {
-  const std::vector<SingleLog> singles = fit_single_logs(torque, id);
+std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const ParameterSpace& space,
+                                             const std::vector<JointFit>& fits) {
+  const std::vector<SingleLog> singles = fit_single_logs(torque, space, fits);
   if (singles.empty()) return {};
   const auto alike = autocovariances(singles, torque.system.joints);
-  std::vector<ParameterTrend> trends(id.space.linear());
-  for (int p = 0; p < id.space.linear(); ++p) {
-    trends[p].name = id.space.name(p);
-    trends[p].unit = id.space.unit(p);
+  std::vector<ParameterTrend> trends(space.linear());
+  for (int p = 0; p < space.linear(); ++p) {
+    trends[p].name = space.name(p);
+    trends[p].unit = space.unit(p);
   }
   for (const SingleLog& s : singles) {
     const Eigen::VectorXd pooled = pooled_variances(s, alike);
@@ -203,8 +211,7 @@ std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const Iden
     }
   }
   std::erase_if(trends, [](const ParameterTrend& t) { return t.by_log.size() < kFitsFewestLogs; });
-  test_trends(trends);
-  return trends;
+  return tested_trends(std::move(trends));
 }
 
 }  // namespace faultline
