@@ -26,6 +26,10 @@ const char* to_string(IdentificationStatus status) {
   return "not_run";
 }
 
+FitStatus FitStatus::with(const std::optional<FitStatus>& found) const {
+  return found ? FitStatus{found->status, reason + "; " + found->reason} : *this;
+}
+
 const char* to_string(IdentifyMethod method) {
   switch (method) {
     case IdentifyMethod::automatic:

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,15 @@ enum class IdentificationStatus {
 };
 
 const char* to_string(IdentificationStatus status);
+
+/// Status of an identification and the reasons for it, which "; " separates.
+struct FitStatus {
+  IdentificationStatus status = IdentificationStatus::not_run;
+  std::string reason;
+
+  /// Returns the status that a test found, with both reasons; the present one if the test found nothing.
+  FitStatus with(const std::optional<FitStatus>& found) const;
+};
 
 /// Estimator of the values.
 enum class IdentifyMethod {

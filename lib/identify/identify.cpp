@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,14 +38,14 @@ bool depends_on_lengths(const ParameterSpace& a, const ParameterSpace& b) {
   return (same - ones).head(a.rigid()).cwiseAbs().maxCoeff() > 1e-6;
 }
 
-void add_contradiction(double ratio, Identification& id) {
-  id.issues.add(make_issue(
+Issue contradiction_issue(double ratio) {
+  return make_issue(
       "lengths_contradict", Severity::warning,
       fmt::format(
           "no masses of the links fit the base parameters at these lengths: they deviate by {:.0f} standard "
           "errors, and the intervals of m and l are wider by this factor. Check whether a length is wrong, a "
           "rotor is not stated (rotor_inertia), or a link is neither rod nor point mass",
-          ratio)));
+          ratio));
 }
 
 bool differ(const PhysicalFit& physical, const std::vector<double>& used) {
@@ -54,28 +55,30 @@ bool differ(const PhysicalFit& physical, const std::vector<double>& used) {
   return false;
 }
 
-void add_guess(const PhysicalFit& physical, Identification& id) {
-  id.issues.add(make_issue(
+Issue guess_issue(const std::vector<std::string>& lengths) {
+  return make_issue(
       "lengths_guessed", Severity::note,
       fmt::format(
           "the logs do not determine {}; the position of the tip and of a tool on it assumes the values that "
           "positive masses make likely: state them under [known] if that position matters",
-          fmt::join(physical.guessed_lengths, ", "))));
+          fmt::join(lengths, ", ")));
 }
 
-/// Computes masses and lengths and rebuilds the chain on the lengths. Returns the lengths if the base
-/// parameters give other torques with them, so that another fit is needed.
-std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate> estimates,
-                                                   Identification& id) {
-  const PhysicalFit physical = physical_parameters(id.robot, id.space, estimates);
-  id.physical_parameters = physical.parameters;
-  if (physical.contradiction > kContradicts) add_contradiction(physical.contradiction, id);
-  if (!physical.hardly_identifiable.empty() && id.status == IdentificationStatus::converged) {
-    id.status = IdentificationStatus::poorly_excited;
-    id.reason +=
-        fmt::format("; these motions hardly determine {}", fmt::join(physical.hardly_identifiable, ", "));
-  }
-  if (!physical.guessed_lengths.empty()) add_guess(physical, id);
+/// Returns `poorly_excited` if a converged fit hardly determines masses or lengths.
+std::optional<FitStatus> hardly_determined(const PhysicalFit& physical, IdentificationStatus status) {
+  if (physical.hardly_identifiable.empty() || status != IdentificationStatus::converged) return std::nullopt;
+  return FitStatus{
+      IdentificationStatus::poorly_excited,
+      fmt::format("these motions hardly determine {}", fmt::join(physical.hardly_identifiable, ", "))};
+}
+
+/// The parameter space on the lengths of the links that were found.
+struct SizedSpace {
+  ParameterSpace space;
+  std::optional<std::vector<double>> lengths;  ///< if the base parameters need another fit with them
+};
+
+SizedSpace sized_space(const PhysicalFit& physical, const Identification& id) {
   Robot sized = id.robot;
   sized.chain.length = physical.lengths;
   ParameterSpace space = parameter_space(sized);
@@ -84,9 +87,9 @@ std::optional<std::vector<double>> settle_physical(std::span<const BaseEstimate>
   space.chain.ripples = id.space.chain.ripples;
   space.chain.shared_drives = id.space.chain.shared_drives;
   const bool same_base = space.base.size() == id.space.base.size() && !depends_on_lengths(id.space, space);
-  if (same_base) id.space = space;
-  if (same_base || !differ(physical, id.robot.chain.length)) return std::nullopt;
-  return physical.lengths;
+  SizedSpace out{same_base ? std::move(space) : id.space, {}};
+  if (!same_base && differ(physical, id.robot.chain.length)) out.lengths = physical.lengths;
+  return out;
 }
 
 /// Logs that carry the same mass at the tip.
@@ -117,20 +120,24 @@ std::vector<PayloadGroup> group_by_payload(std::span<LogSource* const> logs, con
   return out;
 }
 
-void take_logs(const Identification& from, const PayloadGroup& group, Identification& id) {
-  for (std::size_t k = 0; k < from.logs.size(); ++k) {
-    id.logs[group.index[k]] = from.logs[k];
-    id.logs[group.index[k]].payload_kg = group.payload.value;
+/// Returns all logs, with those of a payload group in their places.
+std::vector<IdentifiedLog> with_logs(std::vector<IdentifiedLog> all, const std::vector<IdentifiedLog>& from,
+                                     const PayloadGroup& group) {
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    all[group.index[k]] = from[k];
+    all[group.index[k]].payload_kg = group.payload.value;
   }
+  return all;
 }
 
 /// Renumbers the logs of curves and trends by the order of all logs, not of their payload group.
-void number_logs(const PayloadGroup& group, Identification& id) {
+Identification renumbered(const PayloadGroup& group, Identification id) {
   const auto number = [&](int& log) { log = static_cast<int>(group.index[log]); };
   for (JointFit& fit : id.joint_fits)
     for (int& log : fit.log) number(log);
   for (ParameterTrend& trend : id.trends)
     for (LogValue& value : trend.by_log) number(value.log);
+  return id;
 }
 
 Issue payload_issue(const Identification& loaded, double payload) {
@@ -139,20 +146,20 @@ Issue payload_issue(const Identification& loaded, double payload) {
                                 to_string(loaded.status), loaded.reason));
 }
 
-/// Adds an issue if logs differ in sample period: the noise of the model then belongs to neither rate.
-void add_rates(Identification& id) {
+/// Returns an issue if logs differ in sample period: the noise of the model then belongs to neither rate.
+std::optional<Issue> rates_issue(const std::vector<IdentifiedLog>& logs) {
   const auto [shortest, longest] = std::minmax_element(
-      id.logs.begin(), id.logs.end(),
+      logs.begin(), logs.end(),
       [](const IdentifiedLog& a, const IdentifiedLog& b) { return a.sample_period_s < b.sample_period_s; });
   if (shortest == longest || longest->sample_period_s <= (1.0 + kSameRate) * shortest->sample_period_s)
-    return;
-  id.issues.add(make_issue(
+    return std::nullopt;
+  return make_issue(
       "rates_differ", Severity::warning,
       fmt::format(
           "the logs have different sample periods, from {:.4g} s ({}) to {:.4g} s ({}): the noise that "
           "is estimated from them belongs to neither rate. Use logs of one rate, the rate of the logs to "
           "be diagnosed",
-          shortest->sample_period_s, shortest->path, longest->sample_period_s, longest->path)));
+          shortest->sample_period_s, shortest->path, longest->sample_period_s, longest->path));
 }
 
 /// An identification, and the lengths to fit again with, if any.
@@ -164,24 +171,29 @@ struct Round {
 Round fit_groups(const std::vector<PayloadGroup>& groups, std::size_t logs, const Robot& robot,
                  const IdentifyOptions& options, const Progress& progress) {
   AlikeFit unloaded = fit_alike(groups[0].logs, robot, options, progress);
-  Identification& id = unloaded.id;
-  std::vector<BaseEstimate> estimates = {{id.estimate, id.covariance, unloaded.usable, {}}};
-  const Identification first = id;
-  id.logs.resize(logs);
-  take_logs(first, groups[0], id);
-  number_logs(groups[0], id);
+  std::vector<BaseEstimate> estimates = {{unloaded.id.estimate, unloaded.id.covariance, unloaded.usable, {}}};
+  Identification id = renumbered(groups[0], std::move(unloaded.id));
+  id.logs = with_logs(std::vector<IdentifiedLog>(logs), id.logs, groups[0]);
   for (std::size_t g = 1; g < groups.size(); ++g) {
     const AlikeFit loaded = fit_alike(groups[g].logs, robot, options, progress);
     estimates.push_back({loaded.id.estimate, loaded.id.covariance, loaded.usable, groups[g].payload});
-    take_logs(loaded.id, groups[g], id);
+    id.logs = with_logs(std::move(id.logs), loaded.id.logs, groups[g]);
     id.issues.merge(loaded.id.issues);
     if (loaded.id.status != IdentificationStatus::converged)
       id.issues.add(payload_issue(loaded.id, groups[g].payload.value));
   }
-  std::optional<std::vector<double>> lengths = settle_physical(estimates, id);
-  find_negative_inertia(id);
+  PhysicalFit physical = physical_parameters(id.robot, id.space, estimates);
+  if (physical.contradiction > kContradicts) id.issues.add(contradiction_issue(physical.contradiction));
+  if (!physical.guessed_lengths.empty()) id.issues.add(guess_issue(physical.guessed_lengths));
+  SizedSpace sized = sized_space(physical, id);
+  id.space = std::move(sized.space);
+  const FitStatus status =
+      FitStatus{id.status, id.reason}.with(hardly_determined(physical, id.status)).with(negative_inertia(id));
+  id.status = status.status;
+  id.reason = status.reason;
+  id.physical_parameters = std::move(physical.parameters);
   id.robot = robot_with(id.robot, id.space, id.estimate);
-  return {std::move(id), std::move(lengths)};
+  return {std::move(id), std::move(sized.lengths)};
 }
 
 /// Keeps messages of the solver's library about singular systems off the terminal, since the result reports
@@ -223,7 +235,7 @@ Identification identify(std::span<LogSource* const> logs, const Robot& robot, co
     sized.chain.length = *round.lengths;
     round = fit_groups(groups, logs.size(), sized, options, progress);
   }
-  add_rates(round.id);
+  if (std::optional<Issue> issue = rates_issue(round.id.logs)) round.id.issues.add(std::move(*issue));
   return std::move(round.id);
 }
 

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/random.hpp"
@@ -80,9 +82,9 @@ LeastInertia worst_within(const std::vector<Range>& ranges, bool sure, const Ide
 
 }  // namespace
 
-void find_negative_inertia(Identification& id) {
+std::optional<FitStatus> negative_inertia(const Identification& id) {
   std::vector<Range> ranges = ranges_of(id);
-  if (ranges.empty()) return;
+  if (ranges.empty()) return std::nullopt;
   LeastInertia worst = worst_within(ranges, false, id);
   if (worst.value == 0.0) {
     for (std::size_t j = 0; j < ranges.size(); ++j)
@@ -90,14 +92,14 @@ void find_negative_inertia(Identification& id) {
         ranges[j] = {-std::numbers::pi, std::numbers::pi};
     worst = worst_within(ranges, true, id);
   }
-  if (worst.value == 0.0) return;
+  if (worst.value == 0.0) return std::nullopt;
   const bool turns = id.space.chain.geometry[worst.joint].kind == AxisKind::revolute;
-  id.status = IdentificationStatus::unexplained;
-  id.reason += fmt::format(
-      "; the inertia of joint {} was estimated as {:.4g} {}, and no robot has a negative one: if the "
+  std::string reason = fmt::format(
+      "the inertia of joint {} was estimated as {:.4g} {}, and no robot has a negative one: if the "
       "positions are in another unit, such as revolutions or degrees instead of radians, write the unit of "
       "each q into [log.columns] of the robot file",
       worst.joint + 1, std::min(worst.at_joint, worst.value), turns ? "kg m^2" : "kg");
+  return FitStatus{IdentificationStatus::unexplained, std::move(reason)};
 }
 
 }  // namespace faultline

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace faultline {
@@ -31,27 +32,25 @@ Identification scara(const std::map<std::string, double>& values, double std) {
 }
 
 TEST(InertiaVerdict, ARobotWithPositiveInertiaStaysAsItIs) {
-  Identification id = scara({{"a", 1.6}, {"b", 0.5}, {"c", 0.7}, {"m3", 0.5}}, 0.01);
-  find_negative_inertia(id);
-  EXPECT_EQ(id.status, IdentificationStatus::converged);
-  EXPECT_TRUE(id.reason.empty());
+  const Identification id = scara({{"a", 1.6}, {"b", 0.5}, {"c", 0.7}, {"m3", 0.5}}, 0.01);
+  EXPECT_FALSE(negative_inertia(id).has_value());
 }
 
 TEST(InertiaVerdict, ANegativeInertiaInTheRangeOfTheLogsIsNoRobot) {
-  Identification id = scara({{"a", -136.0}, {"b", 0.5}, {"c", 0.7}, {"m3", 0.5}}, 1.0);
-  find_negative_inertia(id);
-  EXPECT_EQ(id.status, IdentificationStatus::unexplained);
-  EXPECT_NE(id.reason.find("the inertia of joint 1 was estimated as -13"), std::string::npos) << id.reason;
-  EXPECT_NE(id.reason.find("revolutions"), std::string::npos) << id.reason;
+  const Identification id = scara({{"a", -136.0}, {"b", 0.5}, {"c", 0.7}, {"m3", 0.5}}, 1.0);
+  const std::optional<FitStatus> found = negative_inertia(id);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->status, IdentificationStatus::unexplained);
+  EXPECT_EQ(found->reason.find("the inertia of joint 1 was estimated as -13"), 0u) << found->reason;
+  EXPECT_NE(found->reason.find("revolutions"), std::string::npos) << found->reason;
 }
 
 TEST(InertiaVerdict, OneThatIsSurelyNegativeWhereTheJointsCouldTurnToIsNoneEither) {
   const std::map<std::string, double> turns = {{"a", 10.0}, {"b", 8.0}, {"c", 11.0}, {"m3", 0.5}};
-  Identification sure = scara(turns, 0.1), unsure = scara(turns, 10.0);
-  find_negative_inertia(sure);
-  EXPECT_EQ(sure.status, IdentificationStatus::unexplained);
-  find_negative_inertia(unsure);
-  EXPECT_EQ(unsure.status, IdentificationStatus::converged) << "the logs hardly tell it";
+  const std::optional<FitStatus> sure = negative_inertia(scara(turns, 0.1));
+  ASSERT_TRUE(sure.has_value());
+  EXPECT_EQ(sure->status, IdentificationStatus::unexplained);
+  EXPECT_FALSE(negative_inertia(scara(turns, 10.0)).has_value()) << "the logs hardly tell it";
 }
 
 }  // namespace
