@@ -303,16 +303,17 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   store_drives(gathered, torque.fit.parameters, id);
 
   const std::vector<int> undriven = undriven_joints(id.space, torque);
-  mark_unmoved_joints(id.space, still, torque);
-  mark_undriven_joints(id.space, undriven, torque);
-  const std::vector<int> leaning = mark_beside_offsets(id.space, robot, torque);
+  const Confounded confounded = confounded_parameters(id.space, robot, still, undriven, torque);
+  const std::vector<int>& leaning = confounded.leaning;
+  torque.fit.confounded = confounded.parameters;
   id.condition_number = torque.fit.condition_number;
   judge_fit(torque, draft.choice, gathered, still, undriven, id);
   store_spread(draft.choice, id);
   const bool is_infeasible = !torque.why_infeasible.empty();
   search_interpretation(logs, gathered.surveys, still, is_infeasible, id);
   if (id.method == IdentifyMethod::weak_form) smooth_friction(draft.nominal, id.space, id.estimate);
-  list_base_parameters(torque.fit, {torque.wanted, still, undriven, leaning, has_fast_log(id)}, id);
+  id.base_parameters =
+      base_parameter_table(torque.fit, {torque.wanted, still, undriven, leaning, has_fast_log(id)}, id);
   if (is_infeasible && id.status == IdentificationStatus::converged) {
     id.status = IdentificationStatus::poorly_excited;
     id.reason += "; the best fit is infeasible: no real robot has these parameters";

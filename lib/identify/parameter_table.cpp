@@ -97,12 +97,15 @@ std::string why_not_identifiable(const std::vector<int>& still, const std::vecto
   return not_excited(still);
 }
 
-void list_base_parameters(const WeakFit& weak, const TableFacts& facts, Identification& id) {
+std::vector<ParameterEstimate> base_parameter_table(const WeakFit& weak, const TableFacts& facts,
+                                                    const Identification& id) {
+  std::vector<ParameterEstimate> table;
   for (int p = 0; p < id.space.count(); ++p) {
     const bool is_rare = p >= id.space.bend(0) && p < id.space.timing();
     if (is_rare && id.estimate[p] == 0.0) continue;
-    id.base_parameters.push_back(entry(weak, facts, id, p));
+    table.push_back(entry(weak, facts, id, p));
   }
+  return table;
 }
 
 bool all_identifiable(const Identification& id) {

@@ -27,9 +27,10 @@ std::string not_excited(const std::vector<int>& still);
 std::string why_not_identifiable(const std::vector<int>& still, const std::vector<int>& undriven,
                                  const std::vector<int>& leaning);
 
-/// Fills id.base_parameters from id.estimate and id.covariance: the parameters of the space, except bent,
+/// Returns the parameters of `id.space` with the values of `id.estimate` and `id.covariance`, except bent,
 /// skew and extra terms of value 0; those that were not identified with the reason.
-void list_base_parameters(const WeakFit& weak, const TableFacts& facts, Identification& id);
+std::vector<ParameterEstimate> base_parameter_table(const WeakFit& weak, const TableFacts& facts,
+                                                    const Identification& id);
 
 /// Whether every base parameter but rotors, and all viscous and Coulomb friction, are identifiable.
 bool all_identifiable(const Identification& id);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/identify/weak_form/chooser.hpp"
@@ -39,19 +40,67 @@ Eigen::VectorXd friction_share(const ParameterSpace& space, const TorqueFit& tor
   return share;
 }
 
-}  // namespace
-
-void mark_unmoved_joints(const ParameterSpace& space, const std::vector<int>& still, TorqueFit& torque) {
+/// Returns the base parameters that only joints at rest excite.
+std::vector<bool> unmoved_parameters(const ParameterSpace& space, const std::vector<int>& still,
+                                     const WeakSystem& system) {
+  std::vector<bool> out(space.rigid(), false);
   for (int p = 0; p < space.rigid(); ++p) {
     double all = 0.0, shown = 0.0;
-    for (Eigen::Index k = 0; k < torque.system.a.rows(); ++k) {
-      const double square = torque.system.a(k, p) * torque.system.a(k, p);
+    for (Eigen::Index k = 0; k < system.a.rows(); ++k) {
+      const double square = system.a(k, p) * system.a(k, p);
       all += square;
-      if (!has(still, torque.system.joint[k])) shown += square;
+      if (!has(still, system.joint[k])) shown += square;
     }
-    if (shown <= kShown * all) torque.fit.confounded[p] = true;
+    out[p] = shown <= kShown * all;
   }
+  return out;
 }
+
+/// Returns the base parameters of undriven joints to which the driven joints alone give another value.
+std::vector<bool> undriven_parameters(const ParameterSpace& space, const std::vector<int>& undriven,
+                                      const TorqueFit& torque) {
+  std::vector<bool> out(space.rigid(), false);
+  if (undriven.empty()) return out;
+  WeakSystem driven = torque.system;
+  std::vector<bool> felt(space.rigid(), false);
+  for (Eigen::Index k = 0; k < driven.y.size(); ++k) {
+    if (!has(undriven, driven.joint[k])) continue;
+    for (int p = 0; p < space.rigid(); ++p) felt[p] = felt[p] || driven.a(k, p) != 0.0;
+    driven.use[k] = 0.0;
+  }
+  const WeakFit alone = fit_weak_form(driven, space, torque.fit.parameters, torque.wanted);
+  for (int p = 0; p < space.rigid(); ++p) {
+    if (!felt[p] || !torque.fit.free[p] || !alone.free[p] || alone.confounded[p]) continue;
+    const double apart = std::abs(alone.parameters[p] - torque.fit.parameters[p]);
+    const double size = std::max(std::abs(alone.parameters[p]), std::abs(torque.fit.parameters[p]));
+    const double std = std::sqrt(alone.covariance(p, p) + torque.fit.covariance(p, p));
+    out[p] = apart > kOtherwise * size && apart > kOtherwiseStd * std;
+  }
+  return out;
+}
+
+/// Adds the rotors, and the masses beside them, that would be mixed with an excluded friction offset.
+Confounded with_offsets(const ParameterSpace& space, const Robot& robot, const TorqueFit& torque,
+                        std::vector<bool> confounded) {
+  Confounded out{std::move(confounded), {}};
+  const Eigen::MatrixXd a = torque.fit.weight.cwiseSqrt().asDiagonal() * torque.system.a;
+  for (int rotor = 0; rotor < space.rigid(); ++rotor) {
+    if (!space.base[rotor].is_rotor || !torque.fit.free[rotor] || out.parameters[rotor]) continue;
+    const int joint = space.base[rotor].joint;
+    if (torque.wanted[space.offset(joint)] || robot.known.count("fo" + std::to_string(joint + 1)) > 0)
+      continue;
+    std::vector<bool> wanted = torque.fit.free;
+    wanted[space.offset(joint)] = true;
+    const ColumnSelection with = select_columns(a, wanted, space.rigid());
+    if (!with.confounded[space.offset(joint)]) continue;
+    out.leaning.push_back(joint + 1);
+    for (int p = 0; p < space.rigid(); ++p)
+      if (torque.fit.free[p] && with.confounded[p]) out.parameters[p] = true;
+  }
+  return out;
+}
+
+}  // namespace
 
 std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& torque) {
   const int n = space.joints();
@@ -74,42 +123,14 @@ std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& t
   return undriven;
 }
 
-void mark_undriven_joints(const ParameterSpace& space, const std::vector<int>& undriven, TorqueFit& torque) {
-  if (undriven.empty()) return;
-  WeakSystem driven = torque.system;
-  std::vector<bool> felt(space.rigid(), false);
-  for (Eigen::Index k = 0; k < driven.y.size(); ++k) {
-    if (!has(undriven, driven.joint[k])) continue;
-    for (int p = 0; p < space.rigid(); ++p) felt[p] = felt[p] || driven.a(k, p) != 0.0;
-    driven.use[k] = 0.0;
-  }
-  const WeakFit alone = fit_weak_form(driven, space, torque.fit.parameters, torque.wanted);
-  for (int p = 0; p < space.rigid(); ++p) {
-    if (!felt[p] || !torque.fit.free[p] || !alone.free[p] || alone.confounded[p]) continue;
-    const double apart = std::abs(alone.parameters[p] - torque.fit.parameters[p]);
-    const double size = std::max(std::abs(alone.parameters[p]), std::abs(torque.fit.parameters[p]));
-    const double std = std::sqrt(alone.covariance(p, p) + torque.fit.covariance(p, p));
-    if (apart > kOtherwise * size && apart > kOtherwiseStd * std) torque.fit.confounded[p] = true;
-  }
-}
-
-std::vector<int> mark_beside_offsets(const ParameterSpace& space, const Robot& robot, TorqueFit& torque) {
-  std::vector<int> joints;
-  const Eigen::MatrixXd a = torque.fit.weight.cwiseSqrt().asDiagonal() * torque.system.a;
-  for (int rotor = 0; rotor < space.rigid(); ++rotor) {
-    if (!space.base[rotor].is_rotor || !torque.fit.free[rotor] || torque.fit.confounded[rotor]) continue;
-    const int joint = space.base[rotor].joint;
-    if (torque.wanted[space.offset(joint)] || robot.known.count("fo" + std::to_string(joint + 1)) > 0)
-      continue;
-    std::vector<bool> wanted = torque.fit.free;
-    wanted[space.offset(joint)] = true;
-    const ColumnSelection with = select_columns(a, wanted, space.rigid());
-    if (!with.confounded[space.offset(joint)]) continue;
-    joints.push_back(joint + 1);
-    for (int p = 0; p < space.rigid(); ++p)
-      if (torque.fit.free[p] && with.confounded[p]) torque.fit.confounded[p] = true;
-  }
-  return joints;
+Confounded confounded_parameters(const ParameterSpace& space, const Robot& robot,
+                                 const std::vector<int>& still, const std::vector<int>& undriven,
+                                 const TorqueFit& torque) {
+  const std::vector<bool> unmoved = unmoved_parameters(space, still, torque.system);
+  const std::vector<bool> otherwise = undriven_parameters(space, undriven, torque);
+  std::vector<bool> confounded = torque.fit.confounded;
+  for (int p = 0; p < space.rigid(); ++p) confounded[p] = confounded[p] || unmoved[p] || otherwise[p];
+  return with_offsets(space, robot, torque, std::move(confounded));
 }
 
 }  // namespace faultline
