@@ -6,8 +6,11 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "lib/identify/extra/find_ripples.hpp"
+#include "lib/identify/identification.hpp"
+#include "lib/identify/parameter_space.hpp"
 #include "lib/identify/weak_form/extra_choice.hpp"
 
 namespace faultline {
@@ -27,22 +30,21 @@ std::vector<bool> unexplained_joints(const Gathered& gathered, const ModelChoice
   return out;
 }
 
-void add_shared(const Eigen::VectorXd& along, double width, ParameterSpace& space) {
-  for (const SharedDrive& f : space.chain.shared_drives)
-    if ((f.along - along).norm() < kLeastAlong || (f.along + along).norm() < kLeastAlong) return;
-  space.chain.shared_drives.push_back({along, 0.0, 0.0, width});
-}
-
-/// Adds drives that the robot file couples, and drives of neighbouring joints whose torque is poorly
-/// explained: wrists often turn the last motor with the joint before.
-void add_shared_drives(const Robot& robot, const ModelChoice& choice, const std::vector<bool>& look,
-                       ParameterSpace& space) {
+/// Returns the drives of the space, those that the robot file couples, and drives of neighbouring joints
+/// whose torque is poorly explained: wrists often turn the last motor with the joint before.
+std::vector<SharedDrive> drives_to_try(const ParameterSpace& space, const Robot& robot,
+                                       const ModelChoice& choice, const std::vector<bool>& look) {
+  std::vector<SharedDrive> drives = space.chain.shared_drives;
   const int n = space.joints();
-  const auto width = [&](int j) { return weak_width(space, j, choice.weak.width[j]); };
+  const auto add = [&](const Eigen::VectorXd& along, int joint) {
+    for (const SharedDrive& f : drives)
+      if ((f.along - along).norm() < kLeastAlong || (f.along + along).norm() < kLeastAlong) return;
+    drives.push_back({along, 0.0, 0.0, weak_width(space, joint, choice.weak.width[joint])});
+  };
   if (robot.log.coupling.size() > 0) {
-    const Eigen::MatrixXd drives = robot.log.coupling.inverse();
+    const Eigen::MatrixXd coupled = robot.log.coupling.inverse();
     for (int k = 0; k < n; ++k)
-      if ((drives.row(k).array().abs() > kLeastAlong).count() > 1) add_shared(drives.row(k), width(k), space);
+      if ((coupled.row(k).array().abs() > kLeastAlong).count() > 1) add(coupled.row(k), k);
   }
   for (int j = 0; j + 1 < n; ++j) {
     const bool turn = space.chain.geometry[j].kind == AxisKind::revolute &&
@@ -50,27 +52,28 @@ void add_shared_drives(const Robot& robot, const ModelChoice& choice, const std:
     const double worst = std::min(choice.held_out_r2[j], choice.held_out_r2[j + 1]);
     if (!turn || !look[j] || !look[j + 1] || worst > kSharedR2) continue;
     for (const double sign : {1.0, -1.0})
-      add_shared(Eigen::VectorXd::Unit(n, j) + sign * Eigen::VectorXd::Unit(n, j + 1), width(j + 1), space);
+      add(Eigen::VectorXd::Unit(n, j) + sign * Eigen::VectorXd::Unit(n, j + 1), j + 1);
   }
+  return drives;
 }
 
 /// Returns the space with all extra terms to be tried.
-ParameterSpace with_candidates(const Gathered& gathered, const ModelDraft& draft,
-                               const std::vector<bool>& look, const Identification& id) {
-  ParameterSpace space = id.space;
-  add_shared_drives(id.robot, draft.choice, look, space);
+ParameterSpace with_candidates(const DraftedModel& first, const Robot& robot, const std::vector<bool>& look) {
+  const auto& [gathered, draft] = first;
+  ParameterSpace space = draft.torque.space;
+  space.chain.shared_drives = drives_to_try(space, robot, draft.choice, look);
   for (int j = 0; j < space.joints(); ++j) {
     if (!look[j]) continue;
     const auto found = find_ripples(gathered.windows, draft.choice.weak, draft.torque.fit.parameters, j);
     space.chain.ripples.insert(space.chain.ripples.end(), found.begin(), found.end());
   }
-  const bool fast = std::all_of(id.logs.begin(), id.logs.end(),
-                                [](const IdentifiedLog& log) { return log.sample_period_s <= kSlow_s; });
+  const bool fast = std::all_of(gathered.surveys.begin(), gathered.surveys.end(),
+                                [](const LogSurvey& log) { return log.summary.period_s <= kSlow_s; });
   Chain chain = space.chain;
   std::vector<double> compliance(space.joints(), 0.0);
   for (int j = 0; j < space.joints(); ++j) {
     if (!look[j]) continue;
-    if (id.robot.known.count("fl" + std::to_string(j + 1)) == 0) chain.friction[j].load = 1.0;
+    if (robot.known.count("fl" + std::to_string(j + 1)) == 0) chain.friction[j].load = 1.0;
     compliance[j] = fast ? 1.0 : 0.0;
   }
   space.extra = extra_terms_of(chain, compliance);
@@ -86,8 +89,16 @@ Vector with_extra(const ParameterSpace& from, const ParameterSpace& to, const Ve
   return out;
 }
 
-/// Returns the space with only those of its extra terms that `stay`, by parameter; `kept` lists them.
-ParameterSpace pruned(const ParameterSpace& space, const std::vector<bool>& stay, std::vector<int>& kept) {
+/// Returns the extra terms of the space, from 0, whose parameters `stay`.
+std::vector<int> kept_terms(const ParameterSpace& space, const std::vector<bool>& stay) {
+  std::vector<int> kept;
+  for (int i = 0; i < static_cast<int>(space.extra.size()); ++i)
+    if (stay[space.extra_begin() + i]) kept.push_back(i);
+  return kept;
+}
+
+/// Returns the space with only the `kept` ones of its extra terms, from 0.
+ParameterSpace pruned(const ParameterSpace& space, const std::vector<int>& kept) {
   ParameterSpace out = space;
   out.extra.clear();
   out.chain.ripples.clear();
@@ -100,26 +111,24 @@ ParameterSpace pruned(const ParameterSpace& space, const std::vector<bool>& stay
     }
     return at[index];
   };
-  for (int i = 0; i < static_cast<int>(space.extra.size()); ++i) {
-    if (!stay[space.extra_begin() + i]) continue;
+  for (const int i : kept) {
     ExtraTerm term = space.extra[i];
     if (is_ripple(term.kind)) term.index = place(space.chain.ripples, out.chain.ripples, ripple, term.index);
     if (is_of_shared_drive(term.kind))
       term.index = place(space.chain.shared_drives, out.chain.shared_drives, shared, term.index);
     out.extra.push_back(term);
-    kept.push_back(i);
   }
   return out;
 }
 
-/// Lists the terms tried, except rejected candidates: these are many.
-void list_terms(const std::vector<ModelTerm>& tried, std::vector<ModelTerm>& terms) {
-  for (const ModelTerm& term : tried)
-    if (term.kept || term.kind != TermKind::candidate) terms.push_back(term);
+/// Returns the terms that are listed: all but rejected candidates, which are many.
+std::vector<ModelTerm> listed(std::vector<ModelTerm> terms) {
+  std::erase_if(terms, [](const ModelTerm& term) { return !term.kept && term.kind == TermKind::candidate; });
+  return terms;
 }
 
 /// Keeps load friction that the robot file gives.
-void hold_known_load(const ParameterSpace& space, const Robot& robot, ModelDraft& draft) {
+ModelDraft hold_known_load(const ParameterSpace& space, const Robot& robot, ModelDraft draft) {
   for (int p = space.extra_begin(); p < space.timing(); ++p) {
     const ExtraTerm& term = space.extra_at(p);
     const auto known = robot.known.find("fl" + std::to_string(term.joint + 1));
@@ -127,16 +136,18 @@ void hold_known_load(const ParameterSpace& space, const Robot& robot, ModelDraft
     draft.wanted.asked[p] = known->second.std > 0.0;
     draft.nominal[p] = known->second.value;
   }
+  return draft;
 }
 
-/// Maps the vectors of `draft` to the parameters of another space; all extra terms get `asked`.
-void move_to(const ParameterSpace& from, const ParameterSpace& to, bool asked, const Robot& robot,
-             ModelDraft& draft) {
+/// Maps the vectors of `draft` to the parameters of another space, in which all extra terms are asked for.
+/// The torque fit stays as it was.
+ModelDraft moved_to(const ParameterSpace& to, const Robot& robot, ModelDraft draft) {
+  const ParameterSpace& from = draft.torque.space;
   draft.nominal = with_extra(from, to, draft.nominal, 0.0);
-  draft.wanted.asked = with_extra(from, to, draft.wanted.asked, asked);
+  draft.wanted.asked = with_extra(from, to, draft.wanted.asked, true);
   draft.wanted.optional = with_extra(from, to, draft.wanted.optional, false);
   draft.choice.wanted = with_extra(from, to, draft.choice.wanted, false);
-  hold_known_load(to, robot, draft);
+  return hold_known_load(to, robot, std::move(draft));
 }
 
 /// Result of trying extra terms.
@@ -171,17 +182,31 @@ Tried try_candidates(const Gathered& gathered, const Robot& robot, const ModelDr
 
 /// Renews the columns of load friction and springs with the robot as fitted, since they were computed without
 /// both and with other gains, and fits the torque again.
-void settle_columns(std::span<LogSource* const> logs, Gathered& gathered, Identification& id,
-                    ModelDraft& draft) {
-  const bool depend = std::any_of(id.space.extra.begin(), id.space.extra.end(), [](const ExtraTerm& term) {
+DraftedModel settle_columns(std::span<LogSource* const> logs, const Robot& robot, DraftedModel model) {
+  auto& [gathered, draft] = model;
+  const ParameterSpace space = draft.torque.space;
+  const bool depend = std::any_of(space.extra.begin(), space.extra.end(), [](const ExtraTerm& term) {
     return term.kind == ExtraKind::load_friction || term.kind == ExtraKind::gear_compliance;
   });
   for (int round = 0; depend && round < kSettlingRounds; ++round) {
     const Eigen::VectorXd& fitted = draft.torque.fit.parameters;
-    const double phi = std::clamp(fitted[id.space.timing()], 0.0, 1.0);
-    gather_again(logs, id.space, {draft.torque.shift, phi, fitted}, gathered);
-    draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
+    const double phi = std::clamp(fitted[space.timing()], 0.0, 1.0);
+    gathered = gather_again(logs, space, {draft.torque.shift, phi, fitted}, std::move(gathered));
+    draft.torque = fit_torque(gathered, draft.choice, draft.nominal, robot, space);
   }
+  return model;
+}
+
+/// Chooses the model in another space and fits its torque.
+DraftedModel choose_again(std::span<LogSource* const> logs, const ParameterSpace& space, const Robot& robot,
+                          DraftedModel model) {
+  auto& [gathered, draft] = model;
+  draft = moved_to(space, robot, std::move(draft));
+  const WeakMoments moments(gathered.windows, nominal_timing(robot));
+  draft.choice = choose_model(moments, space, draft.nominal, draft.wanted.asked, draft.wanted.optional,
+                              gathered.windows.shifts, static_cast<int>(gathered.windows.sets.size()));
+  draft.torque = fit_torque(gathered, draft.choice, draft.nominal, robot, space);
+  return settle_columns(logs, robot, std::move(model));
 }
 
 }  // namespace
@@ -191,38 +216,30 @@ double nominal_timing(const Robot& robot) {
   return robot.torque_phi.value_or(0.5);
 }
 
-void take_extra_terms(std::span<LogSource* const> logs, Gathered& gathered, Identification& id,
-                      ModelDraft& draft) {
+DraftedModel take_extra_terms(std::span<LogSource* const> logs, const Robot& robot, DraftedModel first) {
+  auto& [gathered, draft] = first;
   const std::vector<bool> look = unexplained_joints(gathered, draft.choice);
-  if (std::count(look.begin(), look.end(), true) == 0) return;
-  const ParameterSpace wide = with_candidates(gathered, draft, look, id);
-  const double phi = std::clamp(draft.torque.fit.parameters[id.space.timing()], 0.0, 1.0);
+  if (std::count(look.begin(), look.end(), true) == 0) return first;
+  const ParameterSpace wide = with_candidates(first, robot, look);
+  const double phi = std::clamp(draft.torque.fit.parameters[draft.torque.space.timing()], 0.0, 1.0);
   const ExtraSetting setting{draft.torque.shift, phi, draft.torque.fit.parameters};
-  gather_again(logs, wide, setting, gathered);
-  ModelDraft widened = draft;
-  move_to(id.space, wide, true, id.robot, widened);
-  const Tried tried = try_candidates(gathered, id.robot, widened);
+  gathered = gather_again(logs, wide, setting, std::move(gathered));
+  const Tried tried = try_candidates(gathered, robot, moved_to(wide, robot, draft));
 
-  std::vector<int> kept;
-  const ParameterSpace space = pruned(wide, tried.stay, kept);
+  const std::vector<int> kept = kept_terms(wide, tried.stay);
+  const ParameterSpace space = pruned(wide, kept);
   if (tried.scales()) {
     gathered.torque_gain = tried.gain;
-    gather_again(logs, space, setting, gathered);
+    gathered = gather_again(logs, space, setting, std::move(gathered));
   } else {
     for (WeakWindows& set : gathered.windows.sets) set.keep_extra(kept);
     gathered.windows.space = space;
   }
-  const bool as_before = kept.empty() && id.space.extra.empty() && !tried.scales();
-  if (!as_before) {
-    move_to(id.space, space, true, id.robot, draft);
-    id.space = space;
-    const WeakMoments moments(gathered.windows, nominal_timing(id.robot));
-    draft.choice = choose_model(moments, space, draft.nominal, draft.wanted.asked, draft.wanted.optional,
-                                gathered.windows.shifts, static_cast<int>(gathered.windows.sets.size()));
-    draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
-    settle_columns(logs, gathered, id, draft);
-  }
-  list_terms(tried.terms, draft.choice.terms);
+  const bool as_before = kept.empty() && draft.torque.space.extra.empty() && !tried.scales();
+  DraftedModel out = as_before ? std::move(first) : choose_again(logs, space, robot, std::move(first));
+  const std::vector<ModelTerm> terms = listed(tried.terms);
+  out.draft.choice.terms.insert(out.draft.choice.terms.end(), terms.begin(), terms.end());
+  return out;
 }
 
 }  // namespace faultline

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/make_issue.hpp"
@@ -34,37 +37,58 @@ constexpr double kOutlierShare =
 
 std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
 
-void take_noise(const Eigen::VectorXd& noise, bool has_dq, Identification& id) {
-  id.q_noise = list(noise.head(id.space.joints()));
-  if (has_dq) id.dq_noise = list(noise.tail(id.space.joints()));
+/// Values of the parameters by one method. The fields with a namesake in Identification mean the same.
+struct MethodValues {
+  IdentifyMethod method = IdentifyMethod::automatic;
+  FitStatus status;
+  Eigen::VectorXd estimate;
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd noise;       ///< std of q, then of dq, by joint
+  std::optional<Issue> issue;  ///< why another method was not used
+};
+
+MethodValues values_of(const TorqueFit& torque, const Gathered& gathered, std::optional<Issue> issue) {
+  return {IdentifyMethod::weak_form,
+          {IdentificationStatus::converged, fmt::format("{} windows", torque.fit.windows)},
+          torque.fit.parameters,
+          torque.fit.covariance,
+          gathered.measurements.noise(),
+          std::move(issue)};
 }
 
-void take_torque_fit(const TorqueFit& torque, const Gathered& gathered, Identification& id) {
-  id.method = IdentifyMethod::weak_form;
-  id.status = IdentificationStatus::converged;
-  id.estimate = torque.fit.parameters;
-  id.covariance = torque.fit.covariance;
-  take_noise(gathered.measurements.noise(), gathered.measurements.has_dq(), id);
-  id.reason = fmt::format("{} windows", torque.fit.windows);
+MethodValues values_of(const ShootingFit& shot) {
+  const auto status = shot.converged ? IdentificationStatus::converged : IdentificationStatus::not_converged;
+  return {
+      IdentifyMethod::output_error, {status, shot.reason}, shot.parameters, shot.covariance, shot.noise, {}};
 }
 
-void take_shooting(const ShootingFit& shot, const Gathered& gathered, Identification& id) {
-  id.method = IdentifyMethod::output_error;
-  id.status = shot.converged ? IdentificationStatus::converged : IdentificationStatus::not_converged;
-  id.reason = shot.reason;
-  id.estimate = shot.parameters;
-  id.covariance = shot.covariance;
-  take_noise(shot.noise, gathered.measurements.has_dq(), id);
+Identification with_values(Identification id, MethodValues values, bool has_dq) {
+  id.method = values.method;
+  id.status = values.status.status;
+  id.reason = std::move(values.status.reason);
+  id.estimate = std::move(values.estimate);
+  id.covariance = std::move(values.covariance);
+  id.q_noise = list(values.noise.head(id.space.joints()));
+  if (has_dq) id.dq_noise = list(values.noise.tail(id.space.joints()));
+  if (values.issue) id.issues.add(std::move(*values.issue));
+  return id;
 }
 
-/// Widens friction to the width of the robot file: sharp friction suits the regression, not simulation.
-void smooth_friction(const Eigen::VectorXd& nominal, ParameterSpace& space, Eigen::VectorXd& parameters) {
-  for (int j = 0; j < space.joints(); ++j) {
-    double& width = parameters[space.log_width(j)];
-    width = std::max(width, nominal[space.log_width(j)]);
+/// Returns the widths of Coulomb friction, none below that of the robot file: sharp friction suits the
+/// regression, not simulation.
+Eigen::VectorXd with_smooth_friction(const Eigen::VectorXd& nominal, const ParameterSpace& space,
+                                     Eigen::VectorXd parameters) {
+  for (int j = 0; j < space.joints(); ++j)
+    parameters[space.log_width(j)] = std::max(parameters[space.log_width(j)], nominal[space.log_width(j)]);
+  return parameters;
+}
+
+/// The same for the drives that joints share.
+ParameterSpace with_smooth_drives(const Eigen::VectorXd& nominal, ParameterSpace space) {
+  for (int j = 0; j < space.joints(); ++j)
     for (SharedDrive& f : space.chain.shared_drives)
       if (f.along[j] != 0.0) f.width = std::max(f.width, elementary::exp(nominal[space.log_width(j)]));
-  }
+  return space;
 }
 
 /// Returns the logs, from 0, whose residual with a fit to the others is far larger than that of the others:
@@ -94,54 +118,50 @@ std::vector<int> outlier_logs(const ModelChoice& choice) {
   return odd;
 }
 
-/// Returns the logs, from 0, that repeat another byte for byte; marks them as left out, with an issue.
-std::vector<int> repeated_logs(Identification& id) {
-  std::vector<int> repeated;
-  for (std::size_t i = 0; i < id.logs.size(); ++i)
+/// A log, from 0, that repeats an earlier one byte for byte.
+struct RepeatedLog {
+  int log = 0, earlier = 0;
+};
+
+std::vector<RepeatedLog> repeated_logs(const std::vector<IdentifiedLog>& logs) {
+  std::vector<RepeatedLog> repeated;
+  std::vector<bool> repeats(logs.size(), false);
+  for (std::size_t i = 0; i < logs.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      if (id.logs[i].sha256.empty() || id.logs[i].sha256 != id.logs[k].sha256 || id.logs[k].left_out)
-        continue;
-      repeated.push_back(static_cast<int>(i));
-      id.logs[i].left_out = true;
-      id.issues.add(make_issue(fmt::format("repeated_log_{}", i + 1), Severity::warning,
-                               fmt::format("{} is identical to {}, byte for byte; it was left out",
-                                           id.logs[i].path, id.logs[k].path)));
+      if (logs[i].sha256.empty() || logs[i].sha256 != logs[k].sha256 || repeats[k]) continue;
+      repeated.push_back({static_cast<int>(i), static_cast<int>(k)});
+      repeats[i] = true;
       break;
     }
   return repeated;
 }
 
-/// Computes how much logs differ: the standard deviation between fits to single logs, by parameter.
-void store_spread(const ModelChoice& choice, Identification& id) {
-  id.between_logs_std.assign(id.space.count(), std::numeric_limits<double>::quiet_NaN());
-  std::vector<int> used;
-  for (int log = 0; log < static_cast<int>(choice.spread.cols()); ++log)
-    if (!id.logs[log].left_out) used.push_back(log);
-  if (used.size() < kFewestLogs) return;
-  for (int p = 0; p < id.space.timing(); ++p) {
-    if (!choice.wanted[p]) continue;
-    const Eigen::ArrayXd values = choice.spread.row(p)(used);
-    id.between_logs_std[p] =
-        std::sqrt((values - values.mean()).square().sum() / static_cast<double>(used.size() - 1));
-  }
+Issue repeated_issue(const RepeatedLog& repeated, const std::vector<IdentifiedLog>& logs) {
+  return make_issue(fmt::format("repeated_log_{}", repeated.log + 1), Severity::warning,
+                    fmt::format("{} is identical to {}, byte for byte; it was left out",
+                                logs[repeated.log].path, logs[repeated.earlier].path));
 }
 
-void name_outlier_logs(const std::vector<int>& odd, bool kept, Identification& id) {
-  for (const int log : odd) {
-    id.logs[log].left_out = !kept;
-    id.issues.add(make_issue(fmt::format("odd_log_{}", log + 1), Severity::warning,
-                             fmt::format("{} disagrees with the other logs: a fit to the others has a far "
-                                         "larger torque residual in this log; {}",
-                                         id.logs[log].path,
-                                         kept ? "it was kept, as --keep-all demands"
-                                              : "it was left out (--keep-all keeps it). Check whether it "
-                                                "shows another robot, another load, or a fault")));
-  }
+Issue outlier_issue(int log, const std::string& path, bool kept) {
+  return make_issue(fmt::format("odd_log_{}", log + 1), Severity::warning,
+                    fmt::format("{} disagrees with the other logs: a fit to the others has a far "
+                                "larger torque residual in this log; {}",
+                                path,
+                                kept ? "it was kept, as --keep-all demands"
+                                     : "it was left out (--keep-all keeps it). Check whether it "
+                                       "shows another robot, another load, or a fault"));
 }
+
+/// What the columns of the logs look like beside the robot file.
+struct ColumnVerdict {
+  FitStatus status;            ///< that of the identification, and what was found
+  std::optional<Issue> issue;  ///< another interpretation that explains the torque
+};
 
 /// Searches another interpretation of the columns if the robot explains the logs poorly or is infeasible.
-void search_interpretation(std::span<LogSource* const> logs, const std::vector<LogSurvey>& surveys,
-                           const std::vector<int>& still, bool infeasible, Identification& id) {
+ColumnVerdict judge_columns(std::span<LogSource* const> logs, const std::vector<LogSurvey>& surveys,
+                            const std::vector<int>& still, bool infeasible, const Identification& id) {
+  ColumnVerdict out{{id.status, id.reason}, {}};
   bool poor = false;
   for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
     if (std::count(still.begin(), still.end(), static_cast<int>(j) + 1) == 0)
@@ -150,22 +170,23 @@ void search_interpretation(std::span<LogSource* const> logs, const std::vector<L
     const auto found = std::find_if(surveys.begin(), surveys.end(),
                                     [j](const LogSurvey& log) { return log.velocity[j].disagrees(); });
     if (found == surveys.end()) continue;
-    id.status = IdentificationStatus::unexplained;
-    id.reason += "; " + disagreement_text(found->velocity[j], j + 1);
+    out.status = out.status.with(
+        FitStatus{IdentificationStatus::unexplained, disagreement_text(found->velocity[j], j + 1)});
   }
-  if (!poor && !infeasible) return;
+  if (!poor && !infeasible) return out;
   const Reinterpretation found = find_reinterpretation(logs, id.robot);
-  if (found.what.empty()) return;
-  id.status = IdentificationStatus::unexplained;
-  id.reason += fmt::format("; it looks as if {}", found.what);
-  id.issues.add(
+  if (found.what.empty()) return out;
+  out.status = out.status.with(
+      FitStatus{IdentificationStatus::unexplained, fmt::format("it looks as if {}", found.what)});
+  out.issue =
       make_issue("misread_columns", Severity::severe,
                  fmt::format("it looks as if {}: with that interpretation the robot explains at least {:.1f} "
                              "% of every joint's torque, with the present one {}; {}",
                              found.what, 100.0 * found.r2_after,
                              found.r2_before > 0.0 ? fmt::format("{:.1f} %", 100.0 * found.r2_before)
                                                    : std::string("none of it"),
-                             found.cure)));
+                             found.cure));
+  return out;
 }
 
 /// Whether a gear was found to be a spring, so that the motion is not that of rigid gears.
@@ -175,62 +196,72 @@ bool has_compliant_gear(const ParameterSpace& space, const TorqueFit& torque) {
   return false;
 }
 
-/// Takes the fit of the motion if it is accepted or asked for, else that of the torque balance.
-void settle_method(std::span<LogSource* const> logs, const Gathered& gathered, TorqueFit& torque,
-                   const Eigen::VectorXd& nominal, const IdentifyOptions& options, const Progress& progress,
-                   Identification& id) {
-  const std::vector<bool>& still = gathered.windows.still;
+/// Returns the fit of the motion if it is accepted or asked for, else that of the torque balance.
+MethodValues settle_method(std::span<LogSource* const> logs, const DraftedModel& model,
+                           const IdentifyOptions& options, const Progress& progress,
+                           const Identification& id) {
+  const TorqueFit& torque = model.draft.torque;
+  const Eigen::VectorXd& nominal = model.draft.nominal;
+  const std::vector<bool>& still = model.gathered.windows.still;
   const bool moves = std::count(still.begin(), still.end(), true) == 0;  // all joints move, else M is unknown
   double worst = 1.0;
   for (int j = 0; j < id.space.joints(); ++j)
     if (!still[j]) worst = std::min(worst, torque.fit.r2[j]);
+  std::optional<Issue> issue;
   if (options.method == IdentifyMethod::automatic && worst < kWorthShooting) {
-    id.issues.add(
+    issue =
         make_issue("torque_unexplained", Severity::note,
                    fmt::format("the model explains only {:.1f} % of some joint's torque: its motion was not "
                                "fitted",
-                               100.0 * std::max(worst, 0.0))));
+                               100.0 * std::max(worst, 0.0)));
   } else if (options.method == IdentifyMethod::automatic && has_compliant_gear(id.space, torque)) {
-    id.issues.add(make_issue("gear_compliance", Severity::note,
-                             "a gear is elastic: values and intervals come from the momentum balance, the "
-                             "motion with rigid gears was not fitted"));
+    issue = make_issue("gear_compliance", Severity::note,
+                       "a gear is elastic: values and intervals come from the momentum balance, the "
+                       "motion with rigid gears was not fitted");
   } else if (options.method != IdentifyMethod::weak_form && moves) {
     TorqueFit start = torque;
     for (int j = 0; j < id.space.joints(); ++j)
       start.fit.parameters[id.space.log_width(j)] = nominal[id.space.log_width(j)];
-    const ShootingOutcome shot = shoot(logs, gathered, start, id, options, progress);
+    const ShootingOutcome shot = shoot(logs, model.gathered, start, id, options, progress);
     const bool forced = options.method == IdentifyMethod::output_error && shot.fit.parameters.size() > 0;
-    if (shot.refused.empty() || forced) {
-      take_shooting(shot.fit, gathered, id);
-      return;
-    }
-    id.issues.add(make_issue("model_error", Severity::note,
-                             shot.refused +
-                                 "; values and intervals come from the momentum balance over short "
-                                 "windows instead of the output error"));
+    if (shot.refused.empty() || forced) return values_of(shot.fit);
+    issue = make_issue("model_error", Severity::note,
+                       shot.refused +
+                           "; values and intervals come from the momentum balance over short "
+                           "windows instead of the output error");
   }
-  take_torque_fit(torque, gathered, id);
+  return values_of(torque, model.gathered, std::move(issue));
 }
 
-/// Marks the chosen terms that the last fit dropped.
-void settle_terms(const ParameterSpace& space, ModelDraft& draft) {
+/// Returns the chosen terms, those that the last fit dropped as not kept.
+std::vector<ModelTerm> settled_terms(const ModelDraft& draft) {
+  const ParameterSpace& space = draft.torque.space;
   const auto left = [&](int p) {
     bool any = draft.torque.wanted[p];
     for (int k = space.extra_begin(); k < space.timing(); ++k)
       if (belong_together(space.extra_at(k), space.extra_at(p))) any = any || draft.torque.wanted[k];
     return any;
   };
-  for (ModelTerm& term : draft.choice.terms) {
+  std::vector<ModelTerm> terms = draft.choice.terms;
+  for (ModelTerm& term : terms) {
     if (term.kind == TermKind::delay) term.kept = draft.torque.shift[term.joint] != 0;
     for (int p = space.extra_begin(); p < space.timing(); ++p)
       if (term.kept && term.name == space.name(p)) term.kept = left(p);
   }
+  return terms;
 }
 
-/// Chooses the model from the logs and fits its torque.
-ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, const std::vector<int>& still,
-                       const IdentifyOptions& options, Identification& id) {
+/// A model chosen from the logs, and what was noticed about them.
+struct ChosenModel {
+  DraftedModel model;
+  std::vector<Issue> issues;
+};
+
+/// Chooses the model from the logs and fits its torque; logs that repeat or contradict others are left out.
+ChosenModel draft_model(std::span<LogSource* const> logs, Gathered gathered, const std::vector<int>& still,
+                        const IdentifyOptions& options, const Identification& id) {
   ModelDraft draft;
+  std::vector<Issue> issues;
   draft.nominal = parameters_of(id.space, id.robot.chain, nominal_timing(id.robot));
   draft.wanted = wanted_parameters(id.space, id.robot, still, options.estimate_offset && has_fast_log(id));
   for (int p = id.space.bend(0); p < id.space.timing(); ++p)
@@ -240,50 +271,73 @@ ModelDraft draft_model(std::span<LogSource* const> logs, Gathered& gathered, con
                         draft.wanted.asked, draft.wanted.optional, gathered.windows.shifts,
                         static_cast<int>(gathered.windows.sets.size()));
   };
-  gathered.leave_out(repeated_logs(id));
+  std::vector<int> left_out;
+  for (const RepeatedLog& repeated : repeated_logs(id.logs)) {
+    left_out.push_back(repeated.log);
+    issues.push_back(repeated_issue(repeated, id.logs));
+  }
+  gathered.leave_out(left_out);
   draft.choice = choose();
   if (const std::vector<int> odd = outlier_logs(draft.choice); !odd.empty()) {
-    name_outlier_logs(odd, options.keep_all, id);
+    for (const int log : odd) issues.push_back(outlier_issue(log, id.logs[log].path, options.keep_all));
     if (!options.keep_all) {
       gathered.leave_out(odd);
       draft.choice = choose();
     }
   }
   draft.torque = fit_torque(gathered, draft.choice, draft.nominal, id.robot, id.space);
-  take_extra_terms(logs, gathered, id, draft);
-  draft.choice.weak.shift = draft.torque.shift;
-  settle_terms(id.space, draft);
-  if (!draft.torque.why_infeasible.empty())
-    id.issues.add(make_issue("infeasible", Severity::warning,
-                             draft.torque.why_infeasible +
-                                 ", which is infeasible; the nearest feasible robot was used instead: "
-                                 "these logs do not determine values next to that bound"));
-  return draft;
+  DraftedModel model = take_extra_terms(logs, id.robot, {std::move(gathered), std::move(draft)});
+  model.draft.choice.weak.shift = model.draft.torque.shift;
+  model.draft.choice.terms = settled_terms(model.draft);
+  if (const std::string& why = model.draft.torque.why_infeasible; !why.empty())
+    issues.push_back(make_issue("infeasible", Severity::warning,
+                                why + ", which is infeasible; the nearest feasible robot was used instead: "
+                                      "these logs do not determine values next to that bound"));
+  return {std::move(model), std::move(issues)};
 }
 
-/// Stores what is not in the equations of motion: the torque gains of the log and the compliance of gears.
-void store_drives(const Gathered& gathered, const Eigen::VectorXd& parameters, Identification& id) {
-  const int n = id.space.joints();
-  if (!gathered.torque_gain.empty()) {
-    id.robot.torque_gain.resize(n, 1.0);
-    for (int j = 0; j < n; ++j) {
-      id.robot.torque_gain[j] *= gathered.torque_gain[j];
-      if (gathered.torque_gain[j] == 1.0) continue;
-      id.issues.add(make_issue(
-          fmt::format("torque_gain_{}", j + 1), Severity::warning,
-          fmt::format("the torque of joint {} is {:.3f} times the value in its column, according to the "
-                      "masses that it shares with the joints before: check its unit, torque constant and "
-                      "gear ratio. The identified robot applies this factor (torque_gain)",
-                      j + 1, gathered.torque_gain[j])));
-    }
+std::vector<Issue> gain_issues(const std::vector<double>& gain) {
+  std::vector<Issue> issues;
+  for (std::size_t j = 0; j < gain.size(); ++j) {
+    if (gain[j] == 1.0) continue;
+    issues.push_back(make_issue(
+        fmt::format("torque_gain_{}", j + 1), Severity::warning,
+        fmt::format("the torque of joint {} is {:.3f} times the value in its column, according to the "
+                    "masses that it shares with the joints before: check its unit, torque constant and "
+                    "gear ratio. The identified robot applies this factor (torque_gain)",
+                    j + 1, gain[j])));
   }
-  id.robot.gear_compliance.clear();
-  for (int p = id.space.extra_begin(); p < id.space.timing(); ++p) {
-    const ExtraTerm& term = id.space.extra_at(p);
+  return issues;
+}
+
+/// Returns the robot with what is not in the equations of motion: the torque gains of the log and the
+/// compliance of gears.
+Robot with_drives(Robot robot, const std::vector<double>& gain, const TorqueFit& torque) {
+  const ParameterSpace& space = torque.space;
+  const int n = space.joints();
+  if (!gain.empty()) {
+    robot.torque_gain.resize(n, 1.0);
+    for (int j = 0; j < n; ++j) robot.torque_gain[j] *= gain[j];
+  }
+  robot.gear_compliance.clear();
+  for (int p = space.extra_begin(); p < space.timing(); ++p) {
+    const ExtraTerm& term = space.extra_at(p);
     if (term.kind != ExtraKind::gear_compliance) continue;
-    id.robot.gear_compliance.resize(n, 0.0);
-    id.robot.gear_compliance[term.joint] = parameters[p];
+    robot.gear_compliance.resize(n, 0.0);
+    robot.gear_compliance[term.joint] = torque.fit.parameters[p];
   }
+  return robot;
+}
+
+/// Returns the status after a look at the bounds and at the parameters that the motion does not determine.
+FitStatus settle_status(FitStatus status, bool infeasible, bool identifiable, const std::string& why_not) {
+  const auto excited = [&] { return status.status == IdentificationStatus::converged; };
+  if (infeasible && excited())
+    status = status.with(FitStatus{IdentificationStatus::poorly_excited,
+                                   "the best fit is infeasible: no real robot has these parameters"});
+  if (!identifiable && excited())
+    status = status.with(FitStatus{IdentificationStatus::poorly_excited, why_not});
+  return status;
 }
 
 }  // namespace
@@ -294,34 +348,44 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   Identification& id = fit.id;
   id.robot = robot;
   id.space = parameter_space(robot);
-  Gathered gathered = gather(logs, options.window_s, options.max_windows, progress, id);
-  const std::vector<int> still = unmoved_joints(gathered.measurements, id.space);
-  gathered.leave_out_joints(still);
-  ModelDraft draft = draft_model(logs, gathered, still, options, id);
-  TorqueFit& torque = draft.torque;
-  settle_method(logs, gathered, torque, draft.nominal, options, progress, id);
-  store_drives(gathered, torque.fit.parameters, id);
+  GatheredLogs read = gather(logs, id.space, options.window_s, options.max_windows, progress);
+  id.logs = std::move(read.logs);
+  id.issues = std::move(read.issues);
+  const std::vector<int> still = unmoved_joints(read.gathered.measurements, id.space);
+  read.gathered.leave_out_joints(still);
+  ChosenModel chosen = draft_model(logs, std::move(read.gathered), still, options, id);
+  const Gathered& gathered = chosen.model.gathered;
+  const ModelDraft& draft = chosen.model.draft;
+  TorqueFit& torque = chosen.model.draft.torque;
+  id.space = torque.space;
+  for (std::size_t i = 0; i < id.logs.size(); ++i) id.logs[i].left_out = gathered.left_out[i];
+  for (Issue& issue : chosen.issues) id.issues.add(std::move(issue));
+  MethodValues values = settle_method(logs, chosen.model, options, progress, id);
+  id = with_values(std::move(id), std::move(values), gathered.measurements.has_dq());
+  id.robot = with_drives(std::move(id.robot), gathered.torque_gain, torque);
+  for (Issue& issue : gain_issues(gathered.torque_gain)) id.issues.add(std::move(issue));
 
   const std::vector<int> undriven = undriven_joints(id.space, torque);
   const Confounded confounded = confounded_parameters(id.space, robot, still, undriven, torque);
-  const std::vector<int>& leaning = confounded.leaning;
   torque.fit.confounded = confounded.parameters;
   id.condition_number = torque.fit.condition_number;
-  judge_fit(torque, draft.choice, gathered, still, undriven, id);
-  store_spread(draft.choice, id);
+  id.held_out_r2 = draft.choice.held_out_r2;
+  id.terms = draft.choice.terms;
+  FitVerdict verdict = judge_fit(torque, draft.choice, gathered, still, undriven, id);
+  id = with_verdict(std::move(id), std::move(verdict));
   const bool is_infeasible = !torque.why_infeasible.empty();
-  search_interpretation(logs, gathered.surveys, still, is_infeasible, id);
-  if (id.method == IdentifyMethod::weak_form) smooth_friction(draft.nominal, id.space, id.estimate);
-  id.base_parameters =
-      base_parameter_table(torque.fit, {torque.wanted, still, undriven, leaning, has_fast_log(id)}, id);
-  if (is_infeasible && id.status == IdentificationStatus::converged) {
-    id.status = IdentificationStatus::poorly_excited;
-    id.reason += "; the best fit is infeasible: no real robot has these parameters";
+  ColumnVerdict columns = judge_columns(logs, gathered.surveys, still, is_infeasible, id);
+  if (columns.issue) id.issues.add(std::move(*columns.issue));
+  if (id.method == IdentifyMethod::weak_form) {
+    id.estimate = with_smooth_friction(draft.nominal, id.space, std::move(id.estimate));
+    id.space = with_smooth_drives(draft.nominal, std::move(id.space));
   }
-  if (!all_identifiable(id) && id.status == IdentificationStatus::converged) {
-    id.status = IdentificationStatus::poorly_excited;
-    id.reason += "; " + why_not_identifiable(still, undriven, leaning);
-  }
+  id.base_parameters = base_parameter_table(
+      torque.fit, {torque.wanted, still, undriven, confounded.leaning, has_fast_log(id)}, id);
+  const FitStatus status = settle_status(std::move(columns.status), is_infeasible, all_identifiable(id),
+                                         why_not_identifiable(still, undriven, confounded.leaning));
+  id.status = status.status;
+  id.reason = status.reason;
   for (int p = 0; p < id.space.rigid(); ++p)
     fit.usable.push_back(torque.fit.free[p] && !torque.fit.confounded[p]);
   return fit;

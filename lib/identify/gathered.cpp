@@ -124,19 +124,20 @@ bool Measurements::still(int j) const {
   return steps_[j] > 0.0 && step_square_[j] / steps_[j] > variance;  // 2 for noise, near 0 for motion
 }
 
-Gathered gather(std::span<LogSource* const> logs, double shortest_window_s, int max_windows,
-                const Progress& progress, Identification& id) {
-  Gathered out;
+GatheredLogs gather(std::span<LogSource* const> logs, const ParameterSpace& space, double shortest_window_s,
+                    int max_windows, const Progress& progress) {
+  GatheredLogs all;
+  Gathered& out = all.gathered;
   double period_s = 0.0;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress("reading", static_cast<double>(i) / static_cast<double>(logs.size()));
-    out.surveys.push_back(survey_log(*logs[i], id.space.joints()));
-    id.issues.merge(logs[i]->issues());
-    id.issues.merge(survey_issues(out.surveys.back()));
+    out.surveys.push_back(survey_log(*logs[i], space.joints()));
+    all.issues.merge(logs[i]->issues());
+    all.issues.merge(survey_issues(out.surveys.back()));
     period_s = std::max(period_s, out.surveys.back().summary.period_s);
   }
   out.left_out.assign(logs.size(), false);
-  out.windows.space = id.space;
+  out.windows.space = space;
   out.windows.shifts = shift_range(period_s);
   for (const double length : window_lengths(shortest_window_s, std::max(period_s, 1e-9)))
     out.windows.sets.emplace_back(length, max_windows);
@@ -147,14 +148,14 @@ Gathered gather(std::span<LogSource* const> logs, double shortest_window_s, int 
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const LogIdentity& from = logs[i]->identity();
     const StretchSummary& read = out.surveys[i].summary;
-    id.logs.push_back({from.path,
-                       from.sha256,
-                       read.rows,
-                       out.windows.sets[0].rows_used(static_cast<int>(i)),
-                       read.period_s,
-                       0.0,
-                       {},
-                       false});
+    all.logs.push_back({from.path,
+                        from.sha256,
+                        read.rows,
+                        out.windows.sets[0].rows_used(static_cast<int>(i)),
+                        read.period_s,
+                        0.0,
+                        {},
+                        false});
   }
   const std::size_t windows = out.windows.sets[0].all().size();
   if (windows < kWindows)
@@ -164,17 +165,18 @@ Gathered gather(std::span<LogSource* const> logs, double shortest_window_s, int 
                     "moving robot",
                     windows, kWindows));
   while (out.windows.sets.back().all().size() < kWindows) out.windows.sets.pop_back();
-  return out;
+  return all;
 }
 
-void gather_again(std::span<LogSource* const> logs, const ParameterSpace& space, const ExtraSetting& setting,
-                  Gathered& gathered) {
+Gathered gather_again(std::span<LogSource* const> logs, const ParameterSpace& space,
+                      const ExtraSetting& setting, Gathered gathered) {
   WeakSets& windows = gathered.windows;
   windows.space = space;
   windows.extra = setting;
   for (WeakWindows& set : windows.sets) set = set.emptied();
   visit_stretches(logs, gathered, [&](const Stretch& s) { windows.add(s); });
   for (WeakWindows& set : windows.sets) set.leave_out(gathered.left_out);
+  return gathered;
 }
 
 void Gathered::leave_out(const std::vector<int>& logs) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/core/issue.hpp"
 #include "lib/core/progress.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/identify/motion/excerpt.hpp"
@@ -55,14 +56,20 @@ struct Gathered {
   void leave_out_joints(const std::vector<int>& still);
 };
 
-/// Reads every log twice; adds the properties of each to `id.logs` and its issues to `id.issues`. Throws
-/// Error(input) if they give too few windows.
-Gathered gather(std::span<LogSource* const> logs, double shortest_window_s, int max_windows,
-                const Progress& progress, Identification& id);
+/// Data of the logs, the properties of each log, and their issues.
+struct GatheredLogs {
+  Gathered gathered;
+  std::vector<IdentifiedLog> logs;
+  Issues issues;
+};
 
-/// Reads every log once more for the windows of another space; the other fields of `gathered` stay.
-void gather_again(std::span<LogSource* const> logs, const ParameterSpace& space, const ExtraSetting& setting,
-                  Gathered& gathered);
+/// Reads every log twice, for the windows of `space`. Throws Error(input) if they give too few windows.
+GatheredLogs gather(std::span<LogSource* const> logs, const ParameterSpace& space, double shortest_window_s,
+                    int max_windows, const Progress& progress);
+
+/// Reads every log once more and returns the windows of another space; the other fields of `gathered` stay.
+Gathered gather_again(std::span<LogSource* const> logs, const ParameterSpace& space,
+                      const ExtraSetting& setting, Gathered gathered);
 
 /// Returns the joints, from 1, whose position hardly changed in all logs: within its noise, or by less than 2
 /// mrad or .2 mm.

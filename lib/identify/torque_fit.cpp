@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "lib/identify/feasible/feasible.hpp"
 #include "lib/robot/dynamics.hpp"
@@ -18,6 +19,13 @@ constexpr double kClearlyThere = 4.0;  // standard deviations above zero that ro
 constexpr double kClearlyNegative = 4.0;  // standard deviations below zero that are clearly negative
 constexpr int kTimingRounds = 3;  // rounds, at most, that move whole samples from the timing to the delay
 constexpr double kTimingSlack = 0.05;  // samples by which noise may move the timing out of its range
+
+/// Returns the space with the width that was chosen for the bent friction of every joint.
+ParameterSpace with_bend_widths(ParameterSpace space, const WeakChoice& choice) {
+  for (int j = 0; j < space.joints(); ++j)
+    space.chain.friction[j].bend_width = weak_width(space, j, choice.bend[j]);
+  return space;
+}
 
 /// Whether the parameter cannot be below zero.
 bool is_not_negative(const ParameterSpace& space, int p) {
@@ -34,7 +42,7 @@ double small_rotor(const ParameterSpace& space, const TorqueFit& torque, int p) 
 
 /// Holds at zero friction and rotors that are slightly negative, and rotors that do not differ clearly from
 /// zero, and fits the other parameters again.
-void hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit& torque) {
+TorqueFit hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit torque) {
   std::vector<bool> moving = torque.wanted;
   std::vector<std::pair<int, double>> held;
   for (bool more = true; more;) {
@@ -62,11 +70,13 @@ void hold_at_zero(const ParameterSpace& space, Eigen::VectorXd start, TorqueFit&
     torque.fit.free[p] = true;
     torque.fit.confounded[p] = false;
   }
+  return torque;
 }
 
 /// Removes extra terms that are impossible or do not differ clearly from zero, the least certain first. A
 /// ripple's cosine may well be zero.
-void drop_insignificant_extra(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit& torque) {
+TorqueFit drop_insignificant_extra(const ParameterSpace& space, const Eigen::VectorXd& start,
+                                   TorqueFit torque) {
   for (;;) {
     int worst = -1;
     double least = kClearlyThere;
@@ -76,7 +86,7 @@ void drop_insignificant_extra(const ParameterSpace& space, const Eigen::VectorXd
       const double significance = std > 0.0 && is_possible(space.extra_at(p).kind, value) ? value / std : 0.0;
       if (significance < least) least = significance, worst = p;
     }
-    if (worst < 0) return;
+    if (worst < 0) return torque;
     torque.wanted[worst] = false;
     torque.fit = fit_weak_form(torque.system, space, start, torque.wanted);
   }
@@ -84,7 +94,7 @@ void drop_insignificant_extra(const ParameterSpace& space, const Eigen::VectorXd
 
 /// Removes friction that would drive its joint: bends beyond the Coulomb friction and skews beyond the
 /// viscous friction.
-void drop_driving_friction(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit& torque) {
+TorqueFit drop_driving_friction(const ParameterSpace& space, const Eigen::VectorXd& start, TorqueFit torque) {
   for (int j = 0; j < space.joints(); ++j) {
     const Eigen::VectorXd& p = torque.fit.parameters;
     const bool bend = p[space.bend(j)] < -p[space.coulomb(j)];
@@ -94,6 +104,7 @@ void drop_driving_friction(const ParameterSpace& space, const Eigen::VectorXd& s
     if (skew) torque.wanted[space.skew(j)] = false;
     torque.fit = fit_weak_form(torque.system, space, start, torque.wanted);
   }
+  return torque;
 }
 
 std::string what_is_wrong(const TorqueFit& torque, const Gathered& gathered, const ParameterSpace& space) {
@@ -108,85 +119,91 @@ TorqueFit with_rotors(const TorqueFit& torque, const ParameterSpace& space, cons
   for (int p = 0; p < space.rigid(); ++p)
     if (space.base[p].is_rotor && robot.known.count(space.base[p].name) == 0) out.wanted[p] = true;
   out.fit = fit_weak_form(out.system, space, nominal, out.wanted);
-  hold_at_zero(space, nominal, out);
-  return out;
+  return hold_at_zero(space, nominal, std::move(out));
 }
 
-/// Adds the covariance of unknown friction widths to that of the free parameters.
-void add_covariance(const Eigen::MatrixXd& doubt, WeakFit& fit) {
+/// Returns the covariance of the fit with that of unknown friction widths added for the free parameters.
+Eigen::MatrixXd with_doubt(const Eigen::MatrixXd& doubt, Eigen::MatrixXd covariance) {
   for (Eigen::Index i = 0; i < doubt.rows(); ++i)
     for (Eigen::Index k = 0; k < doubt.cols(); ++k)
-      if (fit.covariance(i, i) > 0.0 && fit.covariance(k, k) > 0.0) fit.covariance(i, k) += doubt(i, k);
+      if (covariance(i, i) > 0.0 && covariance(k, k) > 0.0) covariance(i, k) += doubt(i, k);
+  return covariance;
 }
 
-/// Fits with every torque delayed by `later` more samples, within the windows; false if no shift changes.
-bool delay_all(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
-               int later, WeakChoice& choice, TorqueFit& torque) {
-  const int earliest = windows.shifts.first + 1, latest = windows.shifts.last;
-  const std::vector<int> before = choice.shift;
-  for (int& shift : choice.shift) shift = std::clamp(shift + later, earliest, latest);
-  if (choice.shift == before) return false;
+/// Returns the shifts with every torque delayed by `later` more samples, within the windows.
+std::vector<int> delayed_by(int later, const ShiftRange& range, std::vector<int> shifts) {
+  const int earliest = range.first + 1, latest = range.last;
+  for (int& shift : shifts) shift = std::clamp(shift + later, earliest, latest);
+  return shifts;
+}
+
+/// Returns the fit of the balances of another choice.
+TorqueFit fit_again(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
+                    const WeakChoice& choice, TorqueFit torque) {
   torque.system = assemble(windows, choice);
   torque.shift = choice.shift;
   torque.fit = fit_weak_form(torque.system, space, nominal, torque.wanted);
-  return true;
+  return torque;
 }
 
 /// Limits the timing to 0 ... 1: beyond, it becomes whole samples of delay of all joints. A torque held over
 /// its sample fits as well with a sample of delay and timing 1; the form without the delay is used.
-void settle_timing(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
-                   WeakChoice choice, TorqueFit& torque) {
+TorqueFit settle_timing(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
+                        WeakChoice choice, TorqueFit torque) {
   const auto phi = [&] { return torque.fit.parameters[space.timing()]; };
+  const auto delay_all = [&](int later) {
+    const std::vector<int> before = choice.shift;
+    choice.shift = delayed_by(later, windows.shifts, before);
+    if (choice.shift == before) return false;
+    torque = fit_again(windows, space, nominal, choice, std::move(torque));
+    return true;
+  };
   for (int round = 0; round < kTimingRounds && torque.fit.free[space.timing()]; ++round) {
     const bool inside = phi() > -kTimingSlack && phi() < 1.0 + kTimingSlack;
-    if (inside || !delay_all(windows, space, nominal, -static_cast<int>(std::floor(phi())), choice, torque))
-      break;
+    if (inside || !delay_all(-static_cast<int>(std::floor(phi())))) break;
   }
   const bool delayed = *std::min_element(choice.shift.begin(), choice.shift.end()) > 0;
-  if (torque.fit.free[space.timing()] && phi() > 1.0 - kTimingSlack && delayed)
-    delay_all(windows, space, nominal, -1, choice, torque);
+  if (torque.fit.free[space.timing()] && phi() > 1.0 - kTimingSlack && delayed) delay_all(-1);
+  return torque;
 }
 
 /// Removes delays of single joints, which were chosen before the torque's timing was fitted: half a sample
 /// resembles one. A joint keeps its own only if no delay of another joint explains its torque as well.
-void drop_own_delays(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
-                     WeakChoice choice, TorqueFit& torque) {
+TorqueFit drop_own_delays(const WeakSets& windows, const ParameterSpace& space,
+                          const Eigen::VectorXd& nominal, WeakChoice choice, TorqueFit torque) {
   choice.shift = torque.shift;
   for (int j = 0; j < space.joints(); ++j)
     for (const int other : std::set<int>(torque.shift.begin(), torque.shift.end())) {
       if (other == torque.shift[j] ||
           std::count(torque.shift.begin(), torque.shift.end(), torque.shift[j]) > 1)
         continue;
-      TorqueFit tried = torque;
       WeakChoice changed = choice;
       changed.shift[j] = other;
-      tried.system = assemble(windows, changed);
-      tried.shift = changed.shift;
-      tried.fit = fit_weak_form(tried.system, space, nominal, tried.wanted);
+      TorqueFit tried = fit_again(windows, space, nominal, changed, torque);
       if (tried.fit.residual_rms[j] > torque.fit.residual_rms[j]) continue;
       choice = changed;
       torque = std::move(tried);
     }
+  return torque;
 }
 
 }  // namespace
 
 TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const Eigen::VectorXd& nominal,
-                     const Robot& robot, ParameterSpace& space) {
-  for (int j = 0; j < space.joints(); ++j)
-    space.chain.friction[j].bend_width = weak_width(space, j, choice.weak.bend[j]);
-  TorqueFit out{assemble(gathered.windows, choice.weak), {}, choice.wanted, choice.weak.shift, {}};
+                     const Robot& robot, const ParameterSpace& given) {
+  const ParameterSpace space = with_bend_widths(given, choice.weak);
+  TorqueFit out{assemble(gathered.windows, choice.weak), {}, choice.wanted, choice.weak.shift, {}, space};
   out.fit = fit_weak_form(out.system, space, nominal, out.wanted);
-  settle_timing(gathered.windows, space, nominal, choice.weak, out);
-  drop_own_delays(gathered.windows, space, nominal, choice.weak, out);
-  drop_insignificant_extra(space, nominal, out);
-  drop_driving_friction(space, nominal, out);
-  hold_at_zero(space, nominal, out);
-  add_covariance(choice.width_covariance, out.fit);
+  out = settle_timing(gathered.windows, space, nominal, choice.weak, std::move(out));
+  out = drop_own_delays(gathered.windows, space, nominal, choice.weak, std::move(out));
+  out = drop_insignificant_extra(space, nominal, std::move(out));
+  out = drop_driving_friction(space, nominal, std::move(out));
+  out = hold_at_zero(space, nominal, std::move(out));
+  out.fit.covariance = with_doubt(choice.width_covariance, std::move(out.fit.covariance));
   const std::string wrong = what_is_wrong(out, gathered, space);
   if (wrong.empty()) return out;
   TorqueFit rotors = with_rotors(out, space, robot, nominal);
-  add_covariance(choice.width_covariance, rotors.fit);
+  rotors.fit.covariance = with_doubt(choice.width_covariance, std::move(rotors.fit.covariance));
   if (what_is_wrong(rotors, gathered, space).empty()) return rotors;
   out.fit.parameters.head(space.linear()) =
       nearest_feasible(space, robot, out.system, out.fit, out.wanted).head(space.linear());

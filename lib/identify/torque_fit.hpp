@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "lib/identify/gathered.hpp"
-#include "lib/identify/identification.hpp"
+#include "lib/identify/parameter_space.hpp"
 #include "lib/identify/weak_form/weak_choice.hpp"
 #include "lib/identify/weak_form/weak_form.hpp"
+#include "lib/robot/robot.hpp"
 
 namespace faultline {
 
@@ -17,13 +18,14 @@ struct TorqueFit {
   WeakFit fit;
   std::vector<bool> wanted;
   std::vector<int> shift;  ///< by joint, samples
-  std::string
-      why_infeasible;  ///< why the optimum is infeasible (the nearest feasible one was taken); else ""
+  /// Why the optimum is infeasible (the nearest feasible one was taken); else "".
+  std::string why_infeasible;
+  ParameterSpace space;  ///< the given one, with the chosen widths of bent friction
 };
 
 /// Fits the torque balance of the chosen windows and terms, and makes the result feasible. Parameters that
-/// are not wanted stay at `nominal`. Bent friction of `space` gets the widths chosen.
+/// are not wanted stay at `nominal`.
 TorqueFit fit_torque(const Gathered& gathered, const ModelChoice& choice, const Eigen::VectorXd& nominal,
-                     const Robot& robot, ParameterSpace& space);
+                     const Robot& robot, const ParameterSpace& space);
 
 }  // namespace faultline

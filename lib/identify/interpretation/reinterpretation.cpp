@@ -69,23 +69,22 @@ Explained explain(const std::vector<Log>& logs, const Robot& robot) {
   for (MemorySource& source : sources) pointers.push_back(&source);
   Explained out;
   try {
-    Identification id;
-    id.space = parameter_space(robot);
-    Gathered gathered = gather(pointers, kMisreadingWindow_s, kMisreadingWindows, {}, id);
+    const ParameterSpace space = parameter_space(robot);
+    Gathered gathered = gather(pointers, space, kMisreadingWindow_s, kMisreadingWindows, {}).gathered;
     const int n = robot.joints();
-    const std::vector<int> still = unmoved_joints(gathered.measurements, id.space);
+    const std::vector<int> still = unmoved_joints(gathered.measurements, space);
     gathered.leave_out_joints(still);
-    const WantedParameters wanted = wanted_parameters(id.space, robot, still, false);
+    const WantedParameters wanted = wanted_parameters(space, robot, still, false);
     std::vector<bool> free = wanted.asked;
     for (std::size_t p = 0; p < free.size(); ++p) free[p] = free[p] && !wanted.optional[p];
     const WeakChoice choice{std::vector<int>(n, 0), std::vector<int>(n, 0), std::vector<int>(n, 1),
                             std::vector<int>(n, 0)};
-    const WeakFit fit = fit_weak_form(assemble(gathered.windows, choice), id.space,
-                                      parameters_of(id.space, robot.chain, 0.5), free);
+    const WeakFit fit = fit_weak_form(assemble(gathered.windows, choice), space,
+                                      parameters_of(space, robot.chain, 0.5), free);
     const Measurements& m = gathered.measurements;
     for (int j = 0; j < n; ++j)
       if (!gathered.windows.still[j]) out.r2.push_back(fit.r2[j]);
-    out.feasible = infeasibility(id.space, fit.parameters, fit.covariance, m.q_low(), m.q_high()).empty();
+    out.feasible = infeasibility(space, fit.parameters, fit.covariance, m.q_low(), m.q_high()).empty();
   } catch (const Error&) {
     return {};  // with this interpretation, the logs do not allow a fit
   }

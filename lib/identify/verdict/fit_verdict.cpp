@@ -7,14 +7,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "lib/identify/excitation/excitation.hpp"
-#include "lib/identify/verdict/parameter_trend.hpp"
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace faultline {
 namespace {
 
-constexpr double kWellExplained = 0.95;  // of a joint's torque: less is explained in part only
+constexpr std::size_t kSpreadFewestLogs = 3;  // the spread of two is too uncertain
+constexpr double kWellExplained = 0.95;       // of a joint's torque: less is explained in part only
 constexpr double kLightOfRotor =
     0.01;  // of the rotor's inertia: a smaller mass is one on which no gravity acts
 constexpr double kLightest = 1e-3, kHeaviest = 300.0;  // kg: bounds of a plausible mass on a prismatic joint
@@ -36,27 +37,65 @@ struct RowSums {
   }
 };
 
-/// Stores the torque delays: whole samples in the robot, and, with the timing between samples, relative to a
-/// straight line between them, in the result.
-void store_delays(const ModelChoice& choice, const Gathered& gathered, Identification& id) {
-  double period = 0.0;
-  for (const LogSurvey& survey : gathered.surveys) period = std::max(period, survey.summary.period_s);
-  std::vector<double> whole = id.robot.torque_delay_s;
-  whole.resize(choice.weak.shift.size(), 0.0);
-  for (std::size_t j = 0; j < whole.size(); ++j) {
-    whole[j] += choice.weak.shift[j] * period;
-    id.torque_delay_s.push_back(whole[j] + (0.5 - id.estimate[id.space.timing()]) * period);
+/// The rows of a torque balance that count, added up.
+struct BalanceSums {
+  std::vector<RowSums> joints;
+  std::vector<std::vector<RowSums>> by_log;  ///< by log, then by joint
+};
+
+BalanceSums balance_sums(const WeakSystem& s, const Eigen::VectorXd& residual, std::size_t logs) {
+  const std::vector<RowSums> none(s.joints);
+  BalanceSums out{none, std::vector<std::vector<RowSums>>(logs, none)};
+  for (Eigen::Index k = 0; k < s.y.size(); ++k) {
+    if (s.use[k] == 0.0) continue;
+    out.joints[s.joint[k]].add(s.y[k], residual[k]);
+    out.by_log[s.log[k]][s.joint[k]].add(s.y[k], residual[k]);
   }
-  const bool none = std::all_of(whole.begin(), whole.end(), [](double s) { return s == 0.0; });
-  id.robot.torque_delay_s = none ? std::vector<double>{} : whole;
+  return out;
 }
 
-void keep_curves(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
-                 const Eigen::VectorXd& residual, Identification& id) {
-  id.joint_fits.assign(torque.system.joints, {});
+std::vector<double> r2_of(const std::vector<RowSums>& joints) {
+  std::vector<double> out;
+  for (const RowSums& sums : joints) out.push_back(sums.r2());
+  return out;
+}
+
+TorqueDelays torque_delays(const ModelChoice& choice, const Gathered& gathered, const Identification& id) {
+  double period = 0.0;
+  for (const LogSurvey& survey : gathered.surveys) period = std::max(period, survey.summary.period_s);
+  TorqueDelays out{id.robot.torque_delay_s, {}};
+  out.whole_s.resize(choice.weak.shift.size(), 0.0);
+  for (std::size_t j = 0; j < out.whole_s.size(); ++j) {
+    out.whole_s[j] += choice.weak.shift[j] * period;
+    out.relative_s.push_back(out.whole_s[j] + (0.5 - id.estimate[id.space.timing()]) * period);
+  }
+  if (std::all_of(out.whole_s.begin(), out.whole_s.end(), [](double s) { return s == 0.0; }))
+    out.whole_s.clear();
+  return out;
+}
+
+/// Returns how much logs differ: the standard deviation between fits to single logs, by parameter.
+std::vector<double> spread_between_logs(const ModelChoice& choice, const Identification& id) {
+  std::vector<double> spread(id.space.count(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<int> used;
+  for (int log = 0; log < static_cast<int>(choice.spread.cols()); ++log)
+    if (!id.logs[log].left_out) used.push_back(log);
+  if (used.size() < kSpreadFewestLogs) return spread;
+  for (int p = 0; p < id.space.timing(); ++p) {
+    if (!choice.wanted[p]) continue;
+    const Eigen::ArrayXd values = choice.spread.row(p)(used);
+    spread[p] = std::sqrt((values - values.mean()).square().sum() / static_cast<double>(used.size() - 1));
+  }
+  return spread;
+}
+
+/// Returns the torques of every joint, window by window.
+std::vector<JointFit> curves_of(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
+                                const Eigen::VectorXd& residual, const Identification& id) {
+  std::vector<JointFit> fits(torque.system.joints);
   Eigen::Index row = 0;
   for (int j = 0; j < torque.system.joints; ++j) {
-    JointFit& fit = id.joint_fits[j];
+    JointFit& fit = fits[j];
     const WeakWindows& set = gathered.windows.sets[choice.weak.set[j]];
     fit.window_s = set.length_s();
     for (const WeakWindow& w : set.all()) {
@@ -72,8 +111,8 @@ void keep_curves(const TorqueFit& torque, const ModelChoice& choice, const Gathe
       fit.moving.push_back(torque.system.use[row] > 0.0);
       ++row;
     }
-    id.residual_patterns.push_back(residual_pattern(fit));
   }
+  return fits;
 }
 
 /// Returns the rotor inertia of the joint that a mass is named after, kg; 0 if it has none.
@@ -84,90 +123,103 @@ double rotor_beside(const Identification& id, int mass) {
   return 0.0;
 }
 
-/// Sets the status to `unexplained` if a mass is implausible and the robot file gives no mass.
-void find_implausible(Identification& id) {
+/// Returns `unexplained` if masses are implausible and the robot file gives no mass.
+std::optional<FitStatus> implausible(const Identification& id) {
   for (int j = 0; j < id.space.joints(); ++j)
-    if (id.robot.known.contains(fmt::format("m{}", j + 1))) return;
+    if (id.robot.known.contains(fmt::format("m{}", j + 1))) return std::nullopt;
+  std::vector<std::string> reasons;
   for (int p = 0; p < id.space.rigid(); ++p) {
     const double mass = id.estimate[p];
     if (!id.space.base[p].is_mass || !(id.covariance(p, p) > 0.0)) continue;
     if (std::abs(mass) < kLightOfRotor * rotor_beside(id, p)) {
-      id.status = IdentificationStatus::unexplained;
-      id.reason += fmt::format(
-          "; {0} shows no weight, it was estimated as {1:.4g} kg: if its axis is horizontal or the order of "
+      reasons.push_back(fmt::format(
+          "{0} shows no weight, it was estimated as {1:.4g} kg: if its axis is horizontal or the order of "
           "axes differs, correct gravity or axes in the robot file, or state {0} under [known]",
-          id.space.name(p), mass);
+          id.space.name(p), mass));
       continue;
     }
     if (mass > kLightest && mass < kHeaviest) continue;
-    id.status = IdentificationStatus::unexplained;
-    id.reason += fmt::format(
-        "; {0} was estimated as {1:.4g} kg: if that is not its mass, the torque is in another unit; if it "
+    reasons.push_back(fmt::format(
+        "{0} was estimated as {1:.4g} kg: if that is not its mass, the torque is in another unit; if it "
         "is, state it as {0} under [known]",
-        id.space.name(p), mass);
+        id.space.name(p), mass));
   }
+  if (reasons.empty()) return std::nullopt;
+  return FitStatus{IdentificationStatus::unexplained, fmt::format("{}", fmt::join(reasons, "; "))};
 }
 
-void find_unexplained(const std::vector<int>& still, Identification& id) {
+std::optional<FitStatus> unexplained(const std::vector<double>& r2, const std::vector<int>& still) {
   std::vector<int> joints;
-  for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
-    if (!(id.fit_r2[j] >= kExplained) && std::count(still.begin(), still.end(), static_cast<int>(j) + 1) == 0)
+  for (std::size_t j = 0; j < r2.size(); ++j)
+    if (!(r2[j] >= kExplained) && std::count(still.begin(), still.end(), static_cast<int>(j) + 1) == 0)
       joints.push_back(static_cast<int>(j) + 1);
-  if (joints.empty()) return;
-  id.status = IdentificationStatus::unexplained;
-  id.reason += fmt::format("; the torque of joint {} is not the torque that this robot needs for its motion",
-                           fmt::join(joints, ", "));
+  if (joints.empty()) return std::nullopt;
+  return FitStatus{
+      IdentificationStatus::unexplained,
+      fmt::format("the torque of joint {} is not the torque that this robot needs for its motion",
+                  fmt::join(joints, ", "))};
 }
 
-/// Finds moving, driven joints whose torque is explained in part only, or not in held-out windows.
-void find_poorly_explained(const std::vector<int>& exempt, Identification& id) {
-  if (id.status != IdentificationStatus::converged) return;
-  for (std::size_t j = 0; j < id.fit_r2.size(); ++j) {
+/// Returns `poorly_explained` for the first moving, driven joint whose torque is explained in part only, or
+/// not in held-out windows.
+std::optional<FitStatus> poorly_explained(const std::vector<double>& r2, const std::vector<double>& held_out,
+                                          const std::vector<int>& exempt) {
+  for (std::size_t j = 0; j < r2.size(); ++j) {
     if (std::count(exempt.begin(), exempt.end(), static_cast<int>(j) + 1) > 0) continue;
-    const double held_out = id.held_out_r2[j];
-    if (id.fit_r2[j] >= kWellExplained && held_out >= kWellExplained) continue;
-    id.status = IdentificationStatus::poorly_explained;
-    id.reason += fmt::format(
-        "; joint {}: the model explains {:.0f} % of the torque it was fitted to and {:.0f} % of the held-out "
-        "torque, so values are rough: {}",
-        j + 1, 100.0 * std::max(id.fit_r2[j], 0.0), 100.0 * std::max(held_out, 0.0),
-        id.fit_r2[j] >= kWellExplained ? "the logs are too short for this many parameters; give longer ones"
-                                       : "check the load, the gravity and the order of axes, and whether a "
-                                         "joint has friction of a kind that the model lacks");
-    return;
+    if (r2[j] >= kWellExplained && held_out[j] >= kWellExplained) continue;
+    return FitStatus{
+        IdentificationStatus::poorly_explained,
+        fmt::format(
+            "joint {}: the model explains {:.0f} % of the torque it was fitted to and {:.0f} % of the "
+            "held-out torque, so values are rough: {}",
+            j + 1, 100.0 * std::max(r2[j], 0.0), 100.0 * std::max(held_out[j], 0.0),
+            r2[j] >= kWellExplained ? "the logs are too short for this many parameters; give longer ones"
+                                    : "check the load, the gravity and the order of axes, and whether a "
+                                      "joint has friction of a kind that the model lacks")};
   }
+  return std::nullopt;
 }
 
 }  // namespace
 
-void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
-               const std::vector<int>& still, const std::vector<int>& undriven, Identification& id) {
+FitVerdict judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
+                     const std::vector<int>& still, const std::vector<int>& undriven,
+                     const Identification& id) {
   const WeakSystem& s = torque.system;
   const Eigen::VectorXd residual = s.y - s.a * id.estimate.head(id.space.linear());
-  std::vector<RowSums> joints(s.joints);
-  std::vector<std::vector<RowSums>> by_log(id.logs.size(), std::vector<RowSums>(s.joints));
-  for (Eigen::Index k = 0; k < s.y.size(); ++k) {
-    if (s.use[k] == 0.0) continue;
-    joints[s.joint[k]].add(s.y[k], residual[k]);
-    by_log[s.log[k]][s.joint[k]].add(s.y[k], residual[k]);
-  }
-  for (const RowSums& sums : joints) {
-    id.residual_rms.push_back(sums.rms());
-    id.fit_r2.push_back(sums.r2());
-  }
-  for (std::size_t i = 0; i < by_log.size(); ++i)
-    for (const RowSums& sums : by_log[i]) id.logs[i].fit_r2.push_back(sums.r2());
-  id.held_out_r2 = choice.held_out_r2;
-  id.terms = choice.terms;
-  store_delays(choice, gathered, id);
-  keep_curves(torque, choice, gathered, residual, id);
-  id.excitation = motion_excitation(torque, id.space, id.joint_fits, id.residual_rms, still);
-  id.trends = parameter_trends(torque, id.space, id.joint_fits);
-  find_unexplained(still, id);
-  find_implausible(id);
+  const BalanceSums sums = balance_sums(s, residual, id.logs.size());
+  FitVerdict out;
+  for (const RowSums& joint : sums.joints) out.residual_rms.push_back(joint.rms());
+  out.fit_r2 = r2_of(sums.joints);
+  for (const std::vector<RowSums>& log : sums.by_log) out.log_r2.push_back(r2_of(log));
+  out.delays = torque_delays(choice, gathered, id);
+  out.between_logs_std = spread_between_logs(choice, id);
+  out.joint_fits = curves_of(torque, choice, gathered, residual, id);
+  for (const JointFit& fit : out.joint_fits) out.residual_patterns.push_back(residual_pattern(fit));
+  out.excitation = motion_excitation(torque, id.space, out.joint_fits, out.residual_rms, still);
+  out.trends = parameter_trends(torque, id.space, out.joint_fits);
+  out.status = FitStatus{id.status, id.reason}.with(unexplained(out.fit_r2, still)).with(implausible(id));
   std::vector<int> exempt = still;
   exempt.insert(exempt.end(), undriven.begin(), undriven.end());
-  find_poorly_explained(exempt, id);
+  if (out.status.status == IdentificationStatus::converged)
+    out.status = out.status.with(poorly_explained(out.fit_r2, choice.held_out_r2, exempt));
+  return out;
+}
+
+Identification with_verdict(Identification id, FitVerdict verdict) {
+  id.status = verdict.status.status;
+  id.reason = std::move(verdict.status.reason);
+  id.residual_rms = std::move(verdict.residual_rms);
+  id.fit_r2 = std::move(verdict.fit_r2);
+  for (std::size_t i = 0; i < id.logs.size(); ++i) id.logs[i].fit_r2 = std::move(verdict.log_r2[i]);
+  id.robot.torque_delay_s = std::move(verdict.delays.whole_s);
+  id.torque_delay_s = std::move(verdict.delays.relative_s);
+  id.between_logs_std = std::move(verdict.between_logs_std);
+  id.joint_fits = std::move(verdict.joint_fits);
+  id.residual_patterns = std::move(verdict.residual_patterns);
+  id.excitation = std::move(verdict.excitation);
+  id.trends = std::move(verdict.trends);
+  return id;
 }
 
 }  // namespace faultline

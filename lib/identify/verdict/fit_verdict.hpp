@@ -1,20 +1,51 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
+#include "lib/identify/excitation/excitation.hpp"
 #include "lib/identify/gathered.hpp"
-#include "lib/identify/shooting_stage.hpp"
+#include "lib/identify/identification.hpp"
+#include "lib/identify/torque_fit.hpp"
+#include "lib/identify/verdict/joint_fit.hpp"
+#include "lib/identify/verdict/parameter_trend.hpp"
+#include "lib/identify/verdict/residual_pattern.hpp"
 #include "lib/identify/weak_form/weak_choice.hpp"
 
 namespace faultline {
 
+/// Delays of the torques, s, by joint.
+struct TorqueDelays {
+  std::vector<double> whole_s;     ///< whole samples, for the robot; empty if all are 0
+  std::vector<double> relative_s;  ///< with the timing, relative to a straight line between samples
+};
+
 /// Least share of a joint's torque that a valid model explains.
 inline constexpr double kExplained = 0.5;
 
-/// Judges how well `id.estimate` explains the torque, and fills `id`: fit by joint, by log and held out, gain
-/// by each term, torque delays, patterns of the residual and trends from log to log. A joint below kExplained
-/// makes the status `unexplained`, one explained in part `poorly_explained`. Joints that never move (`still`,
-/// from 1) are not judged; those with almost no torque (`undriven`) cannot be `poorly_explained`.
-void judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
-               const std::vector<int>& still, const std::vector<int>& undriven, Identification& id);
+/// How well an estimate explains the torque. The fields with a namesake in Identification mean the same.
+struct FitVerdict {
+  FitStatus status;
+  std::vector<double> residual_rms, fit_r2;
+  std::vector<std::vector<double>> log_r2;  ///< by log, then by joint: IdentifiedLog::fit_r2
+  TorqueDelays delays;
+  std::vector<double> between_logs_std;
+  std::vector<JointFit> joint_fits;
+  std::vector<ResidualPattern> residual_patterns;
+  Excitation excitation;
+  std::vector<ParameterTrend> trends;
+};
+
+/// Judges how well `id.estimate` explains the torque: fit by joint and by log, torque delays, the
+/// spread between logs, patterns of the residual and trends from log to log. The status is that of `id`,
+/// unless a joint is below kExplained
+/// (`unexplained`) or explained in part (`poorly_explained`). Joints that never move (`still`, from 1) are
+/// not judged; those with almost no torque (`undriven`) cannot be `poorly_explained`.
+FitVerdict judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
+                     const std::vector<int>& still, const std::vector<int>& undriven,
+                     const Identification& id);
+
+/// Returns the identification with the fields of its verdict.
+Identification with_verdict(Identification id, FitVerdict verdict);
 
 }  // namespace faultline
