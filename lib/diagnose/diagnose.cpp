@@ -188,7 +188,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.roughness = run.roughness;
   diagnosis.judged_share = run.judged_share;
   diagnosis.cannot_see = unseen_by(run, model);
-  settle_verdict(diagnosis, std::move(faults), model.sample_period_s, power_of(model.validation));
+  settle_verdict(diagnosis, faults, model.sample_period_s, power_of(model.validation));
   if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;
   name_runs(diagnosis);
   if (run.log.is_tracked) require_tracking(joints_not_tracked(model, run.relations_judged_s), diagnosis);

@@ -66,16 +66,15 @@ FaultExtent extent_of_torque_loss(double share, const Model& model) {
   return {share, least, unit_of(SizeMeasure::torque_share, true), share / least};
 }
 
-std::vector<FaultFinding> take_small_changes(std::vector<FaultFinding>& faults) {
-  std::vector<FaultFinding> small, kept;
+FaultsBySize faults_by_size(const std::vector<FaultFinding>& faults) {
+  FaultsBySize out;
   for (const FaultFinding& fault : faults) {
     const bool too_small = is_small(fault) && times_least_together(fault, faults) < 1.0;
-    (too_small ? small : kept).push_back(fault);
+    (too_small ? out.small : out.kept).push_back(fault);
   }
-  faults = std::move(kept);
-  std::stable_sort(small.begin(), small.end(),
+  std::stable_sort(out.small.begin(), out.small.end(),
                    [](const auto& a, const auto& b) { return a.onset_s < b.onset_s; });
-  return small;
+  return out;
 }
 
 std::string small_change_text(const FaultFinding& change, double sample_period_s) {

@@ -20,9 +20,15 @@ FaultExtent extent_of(const FaultLabel& label, const std::vector<LabelEvidence>&
 /// Returns the extent of a torque loss of `share` (0 to 1).
 FaultExtent extent_of_torque_loss(double share, const Model& model);
 
-/// Removes the faults that are too small from `faults`, and returns them by onset. Small ones of one label
-/// that reach the least size together stay: a slow change is found in several steps.
-std::vector<FaultFinding> take_small_changes(std::vector<FaultFinding>& faults);
+/// Faults that are reported, and changes that are too small for it.
+struct FaultsBySize {
+  std::vector<FaultFinding> kept;   ///< in the order given
+  std::vector<FaultFinding> small;  ///< by onset
+};
+
+/// Separates the faults that are too small from the others. Small ones of one label that reach the least size
+/// together are kept: a slow change is found in several steps.
+FaultsBySize faults_by_size(const std::vector<FaultFinding>& faults);
 
 /// Describes a small change: kind, joint, onset, confidence, size, and the size from which on it is a fault.
 std::string small_change_text(const FaultFinding& change, double sample_period_s);

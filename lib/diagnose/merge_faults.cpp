@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "lib/fault/fault_catalogue.hpp"
 
@@ -92,10 +93,11 @@ std::vector<FaultFinding> merge_continued(std::vector<FaultFinding> faults) {
   return merged;
 }
 
-void number_by_onset(std::vector<FaultFinding>& faults) {
+std::vector<FaultFinding> numbered_by_onset(std::vector<FaultFinding> faults) {
   std::stable_sort(faults.begin(), faults.end(),
                    [](const auto& a, const auto& b) { return order_key(a) < order_key(b); });
   for (std::size_t i = 0; i < faults.size(); ++i) faults[i].id = static_cast<int>(i) + 1;
+  return faults;
 }
 
 }  // namespace faultline

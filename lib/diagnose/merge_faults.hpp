@@ -14,7 +14,7 @@ namespace faultline {
 /// criterion over single samples, of actuators and of control laws are not merged.
 std::vector<FaultFinding> merge_continued(std::vector<FaultFinding> faults);
 
-/// Sorts findings by onset (then alarm, then joint), unknown times last, and gives them ids from 1.
-void number_by_onset(std::vector<FaultFinding>& faults);
+/// Returns the findings by onset (then alarm, then joint), unknown times last, with ids from 1.
+std::vector<FaultFinding> numbered_by_onset(std::vector<FaultFinding> faults);
 
 }  // namespace faultline

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "lib/core/text.hpp"
 #include "lib/diagnose/blind_spots.hpp"
@@ -163,7 +164,7 @@ std::string why_inconclusive(const LogFacts& log, double model_period_s) {
 
 }  // namespace
 
-void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, double model_period_s,
+void settle_verdict(Diagnosis& diagnosis, const std::vector<FaultFinding>& faults, double model_period_s,
                     double power) {
   diagnosis.verdict_reason = why_inconclusive(diagnosis.log, model_period_s);
   if (!diagnosis.verdict_reason.empty()) {
@@ -171,9 +172,9 @@ void settle_verdict(Diagnosis& diagnosis, std::vector<FaultFinding> faults, doub
     diagnosis.condition.clear();
     return;
   }
-  diagnosis.small_changes = take_small_changes(faults);
-  diagnosis.faults = merge_continued(std::move(faults));
-  number_by_onset(diagnosis.faults);
+  FaultsBySize by_size = faults_by_size(faults);
+  diagnosis.small_changes = std::move(by_size.small);
+  diagnosis.faults = numbered_by_onset(merge_continued(std::move(by_size.kept)));
   if (const Issue* scaled = diagnosis.log.issues.find(kScaledMotion); scaled && !diagnosis.faults.empty()) {
     diagnosis.verdict = Verdict::inconclusive;
     diagnosis.verdict_reason = "the deviations may come from the log itself: " + scaled->message;

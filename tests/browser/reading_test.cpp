@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <utility>
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/report/html/html_report.hpp"
@@ -78,7 +79,7 @@ TEST(PagesAreReadable, ReportOfManyFaultsAndLongNames) {
     d.faults.back().onset_s = d.faults.back().alarm_s = 4.0 + 0.25 * i;
     d.faults.back().end_s = d.faults.back().onset_s + 0.01;
   }
-  number_by_onset(d.faults);
+  d.faults = numbered_by_onset(std::move(d.faults));
   d.log.path = std::string(400, 'n');
   const TemporaryFolder folder;
   ReportDetails details = example_details(d);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <utility>
+
 #include "lib/diagnose/merge_faults.hpp"
 #include "lib/fault/fault_words.hpp"
 
@@ -88,7 +90,7 @@ inline Diagnosis faulty_diagnosis() {
   d.residuals[1].velocity_rms = 12.5;
   d.residuals[1].velocity_peak = 41.5;
   d.cannot_see = {"the torque is the commanded one, so a fault inside the drive shows only in the motion"};
-  number_by_onset(d.faults);
+  d.faults = numbered_by_onset(std::move(d.faults));
   d.verdict = Verdict::faulty;
   return d;
 }
@@ -110,7 +112,7 @@ inline Diagnosis hostile_diagnosis() {
   f.could_also_be = {{{FaultKind::collision, 1}, "named by the MLP"}};
   f.next_check = next_check_for(f.label);
   d.faults.push_back(f);
-  number_by_onset(d.faults);
+  d.faults = numbered_by_onset(std::move(d.faults));
   d.verdict = Verdict::faulty;
   return d;
 }

@@ -7,6 +7,7 @@
 #include <random>
 #include <regex>
 #include <sstream>
+#include <utility>
 
 #include "lib/diagnose/curves/run_curves.hpp"
 #include "lib/report/csv.hpp"
@@ -186,7 +187,7 @@ std::size_t largest_page(int joints) {
     const int bins = 4 * options.all_details / (joints * options.most_details);
     details.curves.details.push_back(window(i + 1, 200.0 * i - 1.0, 200.0 * i + 3.0, bins));
   }
-  number_by_onset(d.faults);
+  d.faults = numbered_by_onset(std::move(d.faults));
   return render_html(d, details).size();
 }
 
