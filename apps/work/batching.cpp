@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "apps/work/file_use.hpp"
 #include "apps/work/robot_log.hpp"
@@ -23,10 +24,10 @@ void writes_batch(FileUse& files, const std::string& folder) {
   files.writes_below("-o", folder + "/logs").writes_below("-o", folder + "/.batch");
 }
 
-void choose_models(std::vector<BatchLog>& logs, const std::vector<BatchModel>& models) {
+std::vector<std::string> folders_of(const std::vector<BatchModel>& models) {
   std::vector<std::string> folders;
   for (const BatchModel& model : models) folders.push_back(model.folder);
-  choose_models(logs, folders);
+  return folders;
 }
 
 void claim_files(const BatchRequest& request, const std::vector<BatchLog>& logs) {
@@ -64,7 +65,7 @@ std::vector<BatchLog> claimed_logs(const BatchRequest& request) {
     throw Error(
         ErrorCode::input, request.paths.front(),
         "contains no log; known extensions are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
-  choose_models(logs, request.models);
+  logs = with_models(std::move(logs), folders_of(request.models));
   claim_files(request, logs);
   return logs;
 }

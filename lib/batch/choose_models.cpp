@@ -80,7 +80,7 @@ void refuse_twice(const std::vector<std::string>& folders) {
 
 }  // namespace
 
-void choose_models(std::vector<BatchLog>& logs, const std::vector<std::string>& folders) {
+std::vector<BatchLog> with_models(std::vector<BatchLog> logs, const std::vector<std::string>& folders) {
   refuse_twice(folders);
   const std::vector<Choice> choices = choices_of(folders);
   const auto rest = std::find(folders.begin(), folders.end(), "");
@@ -113,6 +113,7 @@ void choose_models(std::vector<BatchLog>& logs, const std::vector<std::string>& 
                 fmt::format("{} of {} have no model, this is the first one; add --model DIR=MODEL for its "
                             "folder, or --model MODEL for all logs without a model of their own",
                             without, counted(static_cast<int>(logs.size()), "log")));
+  return logs;
 }
 
 }  // namespace faultline

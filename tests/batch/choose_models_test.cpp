@@ -14,9 +14,8 @@ namespace {
 std::vector<int> chosen(const std::vector<std::string>& names, const std::vector<std::string>& folders) {
   std::vector<BatchLog> logs;
   for (const std::string& name : names) logs.push_back({"/nowhere/" + name, name, 0});
-  choose_models(logs, folders);
   std::vector<int> models;
-  for (const BatchLog& log : logs) models.push_back(log.model);
+  for (const BatchLog& log : with_models(logs, folders)) models.push_back(log.model);
   return models;
 }
 
@@ -52,13 +51,14 @@ TEST(ChooseModels, TheDeepestFolderCountsWhateverTheOrder) {
 TEST(ChooseModels, AFolderOfThisMachineIsFoundByItsPath) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder.file("plant/line1"));
-  std::vector<BatchLog> logs{{folder.write("plant/line1/a.csv", "x"), "line1/a.csv", 0},
-                             {folder.write("plant/b.csv", "x"), "plant/b.csv", 0}};
-  choose_models(logs, {folder.file("plant"), folder.file("plant/../plant/line1")});
+  const std::vector<BatchLog> found{{folder.write("plant/line1/a.csv", "x"), "line1/a.csv", 0},
+                                    {folder.write("plant/b.csv", "x"), "plant/b.csv", 0}};
+  const std::vector<BatchLog> logs =
+      with_models(found, {folder.file("plant"), folder.file("plant/../plant/line1")});
   EXPECT_EQ(logs[0].model, 1);
   EXPECT_EQ(logs[1].model, 0);
   std::filesystem::create_directories(folder.file("plant/empty"));
-  EXPECT_NO_THROW(choose_models(logs, {"", folder.file("plant/empty")})) << "no logs today";
+  EXPECT_NO_THROW(with_models(found, {"", folder.file("plant/empty")})) << "no logs today";
 }
 
 TEST(ChooseModels, LogsWithoutAModelUnknownFoldersAndDoublesAreRefused) {
