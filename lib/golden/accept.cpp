@@ -2,6 +2,7 @@
 #include "lib/golden/accept.hpp"
 
 #include <filesystem>
+#include <utility>
 
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
@@ -18,10 +19,12 @@ void refuse_unusable(const GoldenRun& run, const std::string& name) {
     throw Error(ErrorCode::input, name, "cannot be accepted: " + run.identification->reason);
 }
 
-void rehash(const std::string& folder, GoldenSet& set, const std::string& name) {
+/// The set with the hash that the log of that name has now.
+GoldenSet rehashed(const std::string& folder, GoldenSet set, const std::string& name) {
   for (GoldenLog& log : set.logs)
     if (log.name() == name)
       log.log.sha256 = sha256_of_file((std::filesystem::path(folder) / log.log.path).string());
+  return set;
 }
 
 std::vector<std::string> files_of(const GoldenSet& set) {
@@ -38,14 +41,14 @@ void accept_golden(const std::string& folder, GoldenSet set, const GoldenRun& ru
   for (const std::string& name : names) refuse_unusable(run, name);
   const std::vector<std::string> before = files_of(set);
   if (new_model.subject) {
-    adopt_model(folder, new_model.model, *new_model.subject, set);
-    take_actual(set, run, kModelItem);
+    set = adopt_model(folder, new_model.model, *new_model.subject, std::move(set));
+    set = with_actual(std::move(set), run, kModelItem);
   }
   for (const auto& [channel, tolerance] : defaults.by_channel)
     set.tolerances.by_channel.try_emplace(channel, tolerance);
   for (const std::string& name : names) {
-    rehash(folder, set, name);
-    take_actual(set, run, name);
+    set = rehashed(folder, std::move(set), name);
+    set = with_actual(std::move(set), run, name);
   }
   save_golden(folder, set, before);
 }

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "lib/core/error.hpp"
 
@@ -43,16 +45,21 @@ CheckedItem checked(const ObservedIdentification& expected, const ObservedIdenti
   return {kIdentification, "", expected.status, actual.status, 0, 0, compare(expected, actual, chain)};
 }
 
-void add_model(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
-               const GoldenSet& set, GoldenCheck& check) {
-  if (expected.empty() || actual.empty()) return;
-  check.items.push_back({kModelItem, "", "", "", 0, 0, compare(expected, actual, set.chain())});
+/// The model compared; nothing where one side has no values.
+std::optional<CheckedItem> checked_model(const std::vector<ParameterValue>& expected,
+                                         const std::vector<ParameterValue>& actual, const GoldenSet& set) {
+  if (expected.empty() || actual.empty()) return std::nullopt;
+  return CheckedItem{kModelItem, "", "", "", 0, 0, compare(expected, actual, set.chain())};
 }
 
-void mark_damage(const GoldenLog& log, CheckedItem& item) {
-  if (log.damage.empty()) return;
+/// One log compared, unless its golden files are damaged.
+CheckedItem checked_log(const GoldenSet& set, const GoldenLog& log, const Observation& expected,
+                        const Observation& actual) {
+  CheckedItem item = checked(log.name(), expected, actual, set.chain(log));
+  if (log.damage.empty()) return item;
   item.damage = log.damage;
   item.comparison = {};
+  return item;
 }
 
 }  // namespace
@@ -71,14 +78,13 @@ GoldenCheck check_golden(const GoldenSet& set, const GoldenRun& run) {
   check.expected_by = fmt::format("golden.toml (faultline {}, model {} {})", set.program_version,
                                   set.model_name, set.model.sha256.substr(0, 8));
   check.actual_by = said_by(run);
-  for (const GoldenLog& log : set.logs) {
-    check.items.push_back(checked(log.name(), log.expected, observation_of(run, log.name()), set.chain(log)));
-    mark_damage(log, check.items.back());
-  }
+  for (const GoldenLog& log : set.logs)
+    check.items.push_back(checked_log(set, log, log.expected, observation_of(run, log.name())));
   if (set.identification)
     check.items.push_back(checked(set.identification->expected, identification_of(run.identification),
                                   set.chain(*set.identification)));
-  add_model(set.model_values, run.model_values, set, check);
+  if (std::optional<CheckedItem> model = checked_model(set.model_values, run.model_values, set))
+    check.items.push_back(std::move(*model));
   return check;
 }
 
@@ -86,33 +92,33 @@ GoldenCheck compare_runs(const GoldenSet& set, const GoldenRun& first, const Gol
   GoldenCheck check;
   check.expected_by = said_by(first);
   check.actual_by = said_by(second);
-  for (const GoldenLog& log : set.logs) {
-    check.items.push_back(checked(log.name(), observation_of(first, log.name()),
-                                  observation_of(second, log.name()), set.chain(log)));
-    mark_damage(log, check.items.back());
-  }
+  for (const GoldenLog& log : set.logs)
+    check.items.push_back(
+        checked_log(set, log, observation_of(first, log.name()), observation_of(second, log.name())));
   if (set.identification)
     check.items.push_back(checked(identification_of(first.identification),
                                   identification_of(second.identification), set.chain(*set.identification)));
-  add_model(first.model_values, second.model_values, set, check);
+  if (std::optional<CheckedItem> model = checked_model(first.model_values, second.model_values, set))
+    check.items.push_back(std::move(*model));
   return check;
 }
 
-void take_actual(GoldenSet& set, const GoldenRun& run, const std::string& name) {
+GoldenSet with_actual(GoldenSet set, const GoldenRun& run, const std::string& name) {
   set.program_version = run.program_version;
   if (name == kIdentification) {
     if (set.identification && run.identification) set.identification->expected = *run.identification;
-    return;
+    return set;
   }
   if (name == kModelItem) {
     set.model_values = run.model_values;
-    return;
+    return set;
   }
   for (GoldenLog& log : set.logs) {
     if (log.name() != name) continue;
     log.expected = observation_of(run, name);
     log.damage.clear();
   }
+  return set;
 }
 
 }  // namespace faultline

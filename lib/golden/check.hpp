@@ -38,6 +38,6 @@ GoldenCheck compare_runs(const GoldenSet& set, const GoldenRun& first, const Gol
 
 /// The set with what `run` says of the item of that name (a log, "identification" or "model"). Tolerances
 /// stay.
-void take_actual(GoldenSet& set, const GoldenRun& run, const std::string& name);
+GoldenSet with_actual(GoldenSet set, const GoldenRun& run, const std::string& name);
 
 }  // namespace faultline

@@ -53,9 +53,8 @@ int nearest(const ObservedEvent& wanted, const std::vector<ObservedEvent>& event
 /// Notes what is not within its tolerance in one event.
 class PairComparison {
  public:
-  PairComparison(const ObservedEvent& expected, const ObservedEvent& actual, const ToleranceChain& tolerances,
-                 std::vector<Difference>& differences)
-      : expected_(expected), actual_(actual), tolerances_(tolerances), differences_(differences) {}
+  PairComparison(const ObservedEvent& expected, const ObservedEvent& actual, const ToleranceChain& tolerances)
+      : expected_(expected), actual_(actual), tolerances_(tolerances) {}
 
   void compare_event() {
     number("onset_s", expected_.onset_s, actual_.onset_s, std::fmin(expected_.onset_s, actual_.onset_s));
@@ -71,6 +70,8 @@ class PairComparison {
     compare_opinion("rbfn", expected_.opinions.rbfn, actual_.opinions.rbfn);
     words("could_also_be", names_of(expected_.could_also_be), names_of(actual_.could_also_be));
   }
+
+  const std::vector<Difference>& differences() const { return differences_; }
 
  private:
   void number(const char* channel, double wanted, double got, double time) {
@@ -93,22 +94,22 @@ class PairComparison {
   const ObservedEvent& expected_;
   const ObservedEvent& actual_;
   const ToleranceChain& tolerances_;
-  std::vector<Difference>& differences_;
+  std::vector<Difference> differences_;
 };
 
-bool compare_pair(const ObservedEvent& expected, const ObservedEvent& actual,
-                  const ToleranceChain& tolerances, std::vector<Difference>& differences) {
-  const std::size_t before = differences.size();
-  PairComparison pair(expected, actual, tolerances, differences);
+std::vector<Difference> compare_pair(const ObservedEvent& expected, const ObservedEvent& actual,
+                                     const ToleranceChain& tolerances) {
+  PairComparison pair(expected, actual, tolerances);
   pair.compare_event();
   pair.compare_reasons();
-  return differences.size() > before;
+  return pair.differences();
 }
 
 }  // namespace
 
-void compare_events(const std::vector<ObservedEvent>& expected, const std::vector<ObservedEvent>& actual,
-                    const ToleranceChain& tolerances, Comparison& comparison) {
+Comparison compare_events(const std::vector<ObservedEvent>& expected,
+                          const std::vector<ObservedEvent>& actual, const ToleranceChain& tolerances) {
+  Comparison comparison;
   std::vector<char> used(actual.size(), 0);
   for (const ObservedEvent& event : expected) {
     const int partner = nearest(event, actual, used);
@@ -118,14 +119,16 @@ void compare_events(const std::vector<ObservedEvent>& expected, const std::vecto
       continue;
     }
     used[partner] = 1;
-    const bool differs = compare_pair(event, actual[partner], tolerances, comparison.differences);
-    comparison.lines.push_back({line_of(event), line_of(actual[partner]), differs});
+    const std::vector<Difference> found = compare_pair(event, actual[partner], tolerances);
+    comparison.differences.insert(comparison.differences.end(), found.begin(), found.end());
+    comparison.lines.push_back({line_of(event), line_of(actual[partner]), !found.empty()});
   }
   for (std::size_t i = 0; i < actual.size(); ++i) {
     if (used[i]) continue;
     comparison.differences.push_back({"event", actual[i].onset_s, "", name_of(actual[i].label), kNoNumber});
     comparison.lines.push_back({"", line_of(actual[i]), true});
   }
+  return comparison;
 }
 
 }  // namespace faultline

@@ -219,7 +219,10 @@ Comparison compare(const Observation& expected, const Observation& actual, const
     return comparison;
   }
   compare_rows(expected.rows, actual.rows, length_may_differ(tolerances), comparison);
-  compare_events(expected.events, actual.events, tolerances, comparison);
+  const Comparison events = compare_events(expected.events, actual.events, tolerances);
+  comparison.differences.insert(comparison.differences.end(), events.differences.begin(),
+                                events.differences.end());
+  comparison.lines.insert(comparison.lines.end(), events.lines.begin(), events.lines.end());
   compare_residuals(expected, actual, tolerances, comparison);
   compare_traces(expected.trace, actual.trace, tolerances, comparison);
   return comparison;

@@ -151,8 +151,8 @@ void remove_orphaned_files(const std::string& folder, const GoldenSet& set) {
   }
 }
 
-void adopt_model(const std::string& folder, const std::string& model, const ModelAndCases& subject,
-                 GoldenSet& set) {
+GoldenSet adopt_model(const std::string& folder, const std::string& model, const ModelAndCases& subject,
+                      GoldenSet set) {
   set.model_name = subject.name;
   set.joints = subject.model.robot.joints();
   set.model = {fmt::format("model-{}.json", short_hash(subject.model.sha256)), subject.model.sha256};
@@ -160,6 +160,7 @@ void adopt_model(const std::string& folder, const std::string& model, const Mode
   write_inner_file(folder, set.model.path, read_file(model));
   for (const std::string& file : sqlite_files(set.cases.path)) prepare_inner_file(folder, file);
   write_case_base(inside(folder, set.cases.path), subject.cases);
+  return set;
 }
 
 }  // namespace faultline

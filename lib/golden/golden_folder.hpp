@@ -33,9 +33,9 @@ void save_golden(const std::string& folder, GoldenSet& set, const std::vector<st
 /// interrupted accept_golden() left there.
 void remove_orphaned_files(const std::string& folder, const GoldenSet& set);
 
-/// Writes a copy of the model file and its case base into the folder, under names of their content, and names
-/// them in `set`.
-void adopt_model(const std::string& folder, const std::string& model, const ModelAndCases& subject,
-                 GoldenSet& set);
+/// Writes a copy of the model file and its case base into the folder, under names of their content, and
+/// returns the set that names them.
+GoldenSet adopt_model(const std::string& folder, const std::string& model, const ModelAndCases& subject,
+                      GoldenSet set);
 
 }  // namespace faultline

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
@@ -93,7 +94,7 @@ Recorded record_golden(const std::string& folder, const std::vector<std::string>
   set.trace_points = options.trace_points;
   set.tolerances = default_tolerances(subject.model);
   recorded.no_identification = identify_from_healthy(logs, run, subject.model, open, options, set);
-  adopt_model(folder, model, subject, set);
+  set = adopt_model(folder, model, subject, std::move(set));
   set.model_values = run.model_values;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     GoldenLog log;

@@ -14,9 +14,7 @@ ObservedEvent locked(double onset_s) {
 
 Comparison compared(const std::vector<ObservedEvent>& expected, const std::vector<ObservedEvent>& actual,
                     const Tolerances& allowed = {}) {
-  Comparison comparison;
-  compare_events(expected, actual, {&allowed}, comparison);
-  return comparison;
+  return compare_events(expected, actual, {&allowed});
 }
 
 TEST(CompareEvents, EventsOfOneLabelArePairedByTheNearestOnset) {
