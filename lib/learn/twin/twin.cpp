@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/learn/twin/twin_draw.hpp"
 
@@ -55,7 +56,7 @@ SimulationSpec spec_of(const Twin& twin, int attempt, Random& random) {
 TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed, int attempt) {
   Random random = Random::stream(seed, kDrawStream + static_cast<std::uint64_t>(attempt));
   Robot robot = draw(*twin.identification, random);
-  draw_day(twin, robot, random);
+  robot = draw_day(twin, std::move(robot), random);
   SimulationSpec spec = spec_of(twin, attempt, random);
   TwinRun run;
   run.label = label;

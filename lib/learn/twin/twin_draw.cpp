@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
@@ -60,11 +61,12 @@ SimulatedFault draw_fault(const Twin& twin, const FaultLabel& label, double onse
   return fault;
 }
 
-/// Adds a smaller push on another joint in a share of the runs, as a contact at the tip has.
-void push_another_joint(const Twin& twin, std::vector<SimulatedFault>& faults, Random& random) {
+/// The faults with a smaller push on another joint in a share of the runs, as a contact at the tip has.
+std::vector<SimulatedFault> push_another_joint(const Twin& twin, std::vector<SimulatedFault> faults,
+                                               Random& random) {
   const UsualMotion& motion = *twin.motion;
   const int joints = motion.joints();
-  if (joints < 2 || random.uniform() > twin.options.second_push_share) return;
+  if (joints < 2 || random.uniform() > twin.options.second_push_share) return faults;
   SimulatedFault other = faults.front();
   const int first = other.joint - 1;
   const int second = (first + 1 + static_cast<int>(random.below(joints - 1))) % joints;
@@ -73,6 +75,7 @@ void push_another_joint(const Twin& twin, std::vector<SimulatedFault>& faults, R
   other.joint = second + 1;
   other.size = share * faults.front().size / motion.torque_scale[first] * motion.torque_scale[second];
   faults.push_back(other);
+  return faults;
 }
 
 }  // namespace
@@ -130,7 +133,7 @@ DriveSpec draw_drives(const Twin& twin, Random& random) {
   return drives;
 }
 
-void draw_day(const Twin& twin, Robot& robot, Random& random) {
+Robot draw_day(const Twin& twin, Robot robot, Random& random) {
   for (std::size_t j = 0; j < robot.chain.friction.size(); ++j) {
     const double scale = 1.0 + draw_change(twin.days.friction[j], random);
     const double excess = draw_change(twin.days.viscous_excess[j], random);
@@ -138,6 +141,7 @@ void draw_day(const Twin& twin, Robot& robot, Random& random) {
     robot.chain.friction[j].coulomb *= std::max(scale - 0.5 * excess, kLeastFriction);
     robot.chain.friction[j].load *= std::max(scale, kLeastFriction);
   }
+  return robot;
 }
 
 JointStops draw_stops(const Twin& twin, Random& random) {
@@ -156,7 +160,7 @@ JointStops draw_stops(const Twin& twin, Random& random) {
 std::vector<SimulatedFault> draw_faults(const Twin& twin, const FaultLabel& label, double onset_s,
                                         Random& random) {
   std::vector<SimulatedFault> faults = {draw_fault(twin, label, onset_s, random)};
-  if (describe(label.kind).passes) push_another_joint(twin, faults, random);
+  if (describe(label.kind).passes) return push_another_joint(twin, std::move(faults), random);
   return faults;
 }
 

@@ -19,8 +19,8 @@ ControllerSpec draw_controller(const Twin& twin, bool allow_pd, Random& random);
 DriveSpec draw_drives(const Twin& twin, Random& random);
 /// Measurement noise of a day, within the normal range.
 NoiseSpec draw_noise(const Twin& twin, Random& random);
-/// Scales the friction of `robot` to that of a day, within the normal range.
-void draw_day(const Twin& twin, Robot& robot, Random& random);
+/// The robot with the friction of a day, within the normal range.
+Robot draw_day(const Twin& twin, Robot robot, Random& random);
 /// End stops outside the range of the logs, or none.
 JointStops draw_stops(const Twin& twin, Random& random);
 /// The requested fault, and for a kind that passes possibly a second push at another joint.
