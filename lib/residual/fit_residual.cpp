@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lib/residual/fit_residual.hpp"
 
+#include <utility>
+#include <vector>
+
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {
@@ -49,20 +52,23 @@ VectorXd largest_of(const MatrixXd& values) { return values.cwiseAbs().rowwise()
 
 }  // namespace
 
-TrainingSummary fit_residual_generator(ResidualGenerator& generator, const Transitions& training,
+FittedGenerator fit_residual_generator(ResidualGenerator untrained, const Transitions& training,
                                        const Transitions& validation, const ResidualOptions& options,
                                        const Progress& progress) {
-  if (generator.kind == ResidualKind::physics) return {};
+  FittedGenerator out{std::move(untrained), {}};
+  ResidualGenerator& generator = out.generator;
+  if (generator.kind == ResidualKind::physics) return out;
   generator.inputs = range_scaler(network_inputs(generator, training));
   generator.outputs = range_scaler(network_targets(generator, training));
   Patterns held_back;
   if (validation.count() > 0) held_back = scaled_patterns(generator, validation);
   TrainedMlp trained = train_network(scaled_patterns(generator, training), held_back, options, progress);
   generator.mlp = std::move(trained.mlp);
-  return std::move(trained.summary);
+  out.training = std::move(trained.summary);
+  return out;
 }
 
-void measure_healthy(ResidualGenerator& generator, const Transitions& check) {
+HealthyResiduals healthy_residuals(ResidualGenerator generator, const Transitions& check) {
   const Index n = generator.joints();
   HealthyResiduals& healthy = generator.healthy;
   healthy.patterns = check.count();
@@ -77,6 +83,7 @@ void measure_healthy(ResidualGenerator& generator, const Transitions& check) {
   healthy.position_max = largest_of(r.position);
   healthy.velocity_max = largest_of(r.velocity);
   healthy.torque_max = largest_of(r.torque);
+  return healthy;
 }
 
 }  // namespace faultline

@@ -9,14 +9,21 @@
 
 namespace faultline {
 
-/// Trains the network of `generator`, whose kind, target, shape and chain are set, on these transitions of
+/// A generator with its network, and how the training went.
+struct FittedGenerator {
+  ResidualGenerator generator;
+  TrainingSummary training;  ///< not run for kind physics
+};
+
+/// Trains the network of `untrained`, whose kind, target, shape and chain are set, on these transitions of
 /// healthy motion, all of them finite; scalers take the range of `training`. `validation` may be empty. Kind
-/// physics has nothing to train: the summary is then "not run".
-TrainingSummary fit_residual_generator(ResidualGenerator& generator, const Transitions& training,
+/// physics has nothing to train.
+FittedGenerator fit_residual_generator(ResidualGenerator untrained, const Transitions& training,
                                        const Transitions& validation, const ResidualOptions& options,
                                        const Progress& progress = {});
 
-/// Sets `generator.healthy` from transitions of healthy motion that were not trained on.
-void measure_healthy(ResidualGenerator& generator, const Transitions& check);
+/// The residuals that the generator has on transitions of healthy motion that were not trained on; those that
+/// it names already do not matter.
+HealthyResiduals healthy_residuals(ResidualGenerator generator, const Transitions& check);
 
 }  // namespace faultline

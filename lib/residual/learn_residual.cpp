@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
@@ -126,15 +127,20 @@ Pools draw(std::span<LogSource* const> logs, const TransitionShape& shape, std::
   return pools;
 }
 
-void measure_errors(LearnedResidual& learned, const Transitions& check) {
-  const Index n = learned.generator.joints();
+/// Mean squared errors of the generator, and of the prediction that nothing changes (LearnedResidual).
+struct MotionErrors {
+  double normalised_mse = 0.0, persistence_mse = 0.0;
+};
+
+MotionErrors motion_errors(const ResidualGenerator& generator, const Transitions& check) {
+  const Index n = generator.joints();
   MatrixXd state(2 * n, check.count());
   state << check.next_q, check.next_dq;
   const VectorXd factor = range_scaler(state).factor;
-  const MatrixXd change = measured_change(learned.generator, check);
-  const MatrixXd error = change - predicted_change(learned.generator, check);
-  learned.normalised_mse = (factor.asDiagonal() * error).squaredNorm() / static_cast<double>(error.size());
-  learned.persistence_mse = (factor.asDiagonal() * change).squaredNorm() / static_cast<double>(change.size());
+  const MatrixXd change = measured_change(generator, check);
+  const MatrixXd error = change - predicted_change(generator, check);
+  return {(factor.asDiagonal() * error).squaredNorm() / static_cast<double>(error.size()),
+          (factor.asDiagonal() * change).squaredNorm() / static_cast<double>(change.size())};
 }
 
 ResidualGenerator untrained(const Robot& robot, const Survey& survey, const TransitionShape& shape,
@@ -173,7 +179,6 @@ LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const
   Transitions training = pools.training.drawn();
 
   LearnedResidual learned;
-  ResidualGenerator& generator = learned.generator = untrained(identified, survey, shape, options);
   if (options.kind == ResidualKind::mlp && identified.identified && options.twin_share > 0.0)
     training = joined(training, twin_transitions(training, shape, identified.chain,
                                                  static_cast<int>(options.twin_share * options.max_patterns),
@@ -181,9 +186,14 @@ LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const
   learned.training_patterns = training.count();
   const Transitions validation = pools.validation.drawn();
   learned.validation_patterns = options.kind == ResidualKind::physics ? 0 : validation.count();
-  learned.training = fit_residual_generator(generator, training, validation, options, progress);
-  measure_healthy(generator, check);
-  measure_errors(learned, check);
+  FittedGenerator fitted = fit_residual_generator(untrained(identified, survey, shape, options), training,
+                                                  validation, options, progress);
+  learned.generator = std::move(fitted.generator);
+  learned.training = std::move(fitted.training);
+  learned.generator.healthy = healthy_residuals(learned.generator, check);
+  const MotionErrors errors = motion_errors(learned.generator, check);
+  learned.normalised_mse = errors.normalised_mse;
+  learned.persistence_mse = errors.persistence_mse;
   return learned;
 }
 

@@ -139,7 +139,7 @@ ResidualGenerator ClassifierBench::generator(const ClassifierRecipe& recipe) con
   if (recipe.generator != RecipeGenerator::paper) generator.kind = ResidualKind::physics;
   generator.shape.torque_phi = torque_phi(recipe.generator);
   const auto check = healthy_trajectories(experiment_, kHealthyCheck, recipe.sigma, SeedUse::learning_logs);
-  measure_healthy(generator, transitions_of(check, generator.shape.torque_phi));
+  generator.healthy = healthy_residuals(generator, transitions_of(check, generator.shape.torque_phi));
   Eigen::VectorXd& scale = generator.healthy.torque_rms;
   scale = scale.cwiseMax(kLeastTorqueScale * experiment_.ranges.tau);
   return generator;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/reproduce/protocol/motion_generator.hpp"
 
+#include <utility>
+
 #include "lib/residual/fit_residual.hpp"
 
 namespace faultline {
@@ -49,8 +51,8 @@ std::vector<Log> healthy_runs(const Experiment& experiment, int trajectories, do
 }
 
 TrainedGenerator train_generator(const Experiment& experiment, const GeneratorRecipe& recipe) {
-  TrainedGenerator trained{untrained_generator(experiment.robot, recipe), {}};
-  const double phi = trained.generator.shape.torque_phi;
+  ResidualGenerator untrained = untrained_generator(experiment.robot, recipe);
+  const double phi = untrained.shape.torque_phi;
   const auto draw = recipe.runs_of_moves ? healthy_runs : healthy_trajectories;
   std::vector<Log> logs = draw(experiment, recipe.trajectories + recipe.trajectories / 5, recipe.sigma,
                                SeedUse::generator_training);
@@ -60,9 +62,9 @@ TrainedGenerator train_generator(const Experiment& experiment, const GeneratorRe
   logs.resize(training_count);
   ResidualOptions fit = recipe.fit;
   fit.seed = seed_of(experiment.seed, SeedUse::generator_training, ~0ull);
-  trained.training = fit_residual_generator(trained.generator, transitions_of(logs, phi), {}, fit);
-  measure_healthy(trained.generator, check);
-  return trained;
+  FittedGenerator fitted = fit_residual_generator(std::move(untrained), transitions_of(logs, phi), {}, fit);
+  fitted.generator.healthy = healthy_residuals(fitted.generator, check);
+  return {std::move(fitted.generator), std::move(fitted.training)};
 }
 
 Eigen::VectorXd normalised_mse_by_output(const Eigen::MatrixXd& error, const HalfRanges& ranges) {
