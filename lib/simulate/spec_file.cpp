@@ -6,6 +6,7 @@
 #include <cctype>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
@@ -42,18 +43,28 @@ SimulatedFault read_fault(const TomlTable& table, const Robot& robot) {
   return fault;
 }
 
-void read_faults(const TomlTable& table, const Robot& robot, std::vector<SimulatedFault>& faults) {
-  if (!table.has("fault")) return;
+std::vector<SimulatedFault> read_faults(const TomlTable& table, const Robot& robot,
+                                        std::vector<SimulatedFault> faults) {
+  if (!table.has("fault")) return faults;
   faults.clear();
   if (table.is_array("fault"))
     for (const TomlTable& one : table.tables("fault")) faults.push_back(read_fault(one, robot));
   else
     faults.push_back(read_fault(table.table("fault"), robot));
+  return faults;
 }
 
+/// A simulation as far as it is read. "held" of the file also applies to a run with a sample period of its
+/// own.
+struct ReadSimulation {
+  SimulationSpec spec;
+  bool held = false;  ///< the control period is the sample period
+};
+
 /// Reads the keys that the file and each of its runs share; those of a run take precedence.
-void read_simulation(const TomlTable& table, const Robot& robot, std::uint64_t seed, SimulationSpec& spec,
-                     bool& held) {
+ReadSimulation read_simulation(const TomlTable& table, const Robot& robot, std::uint64_t seed,
+                               ReadSimulation simulation) {
+  auto& [spec, held] = simulation;
   const int joints = robot.joints();
   spec.duration_s = table.number("duration_s", spec.duration_s);
   spec.sample_period_s = table.number("sample_period_s", spec.sample_period_s);
@@ -67,10 +78,11 @@ void read_simulation(const TomlTable& table, const Robot& robot, std::uint64_t s
   if (held) spec.control_period_s = spec.sample_period_s;
   spec.max_step_s = table.number("max_step_s", spec.max_step_s);
   spec.record_reference = table.flag("record_reference", spec.record_reference);
-  read_motion(table.table("motion"), joints, spec.motion);
-  read_controller(table.table("controller"), joints, seed, spec.controller);
-  read_machine(table, joints, spec);
-  read_faults(table, robot, spec.faults);
+  spec.motion = read_motion(table.table("motion"), joints, std::move(spec.motion));
+  spec.controller = read_controller(table.table("controller"), joints, seed, std::move(spec.controller));
+  spec = read_machine(table, joints, std::move(spec));
+  spec.faults = read_faults(table, robot, std::move(spec.faults));
+  return simulation;
 }
 
 Robot read_robot(const TomlTable& table, const std::string& folder) {
@@ -123,9 +135,8 @@ SimulationFile simulation_from_toml(const std::string& text, const std::string& 
     RunSpec run;
     run.name = run_name(runs[i], taken);
     run.seed = read_seed(runs[i], seed + i);
-    bool held = false;  // "held" of the file also applies to a run with a sample period of its own
-    read_simulation(table, file.robot, run.seed, run.simulation, held);
-    read_simulation(runs[i], file.robot, run.seed, run.simulation, held);
+    ReadSimulation of_file = read_simulation(table, file.robot, run.seed, {});
+    run.simulation = read_simulation(runs[i], file.robot, run.seed, std::move(of_file)).spec;
     try {
       check_simulation(file.robot, run.simulation);
     } catch (const Error& error) {
