@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/robot/robot_file.hpp"
@@ -110,7 +111,7 @@ Eigen::VectorXd PhysicalEquations::base(const Eigen::VectorXd& log_open, int gro
     (u.kind == 'm' ? mass : length)[u.index] = value;
     if (robot.shapes[u.index] == LinkShape::general) set_parameter(robot, u.name, value);
   }
-  set_masses_and_lengths(robot, mass, length);
+  robot = with_masses_and_lengths(std::move(robot), mass, length);
   if (payload != 0.0) load_tip(robot, robot.chain, payload);
   const Eigen::VectorXd all = parameters_of(space_, robot.chain, 0.0);
   const std::vector<int>& wanted = groups_[group].parameters;

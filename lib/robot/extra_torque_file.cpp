@@ -15,7 +15,7 @@ constexpr double kFastest = 1e5;  // highest rate of a ripple, 1/rad or 1/m
 
 }  // namespace
 
-void read_extra_torque(const TomlTable& table, Chain& chain) {
+Chain read_extra_torque(const TomlTable& table, Chain chain) {
   const int n = chain.joints();
   for (const TomlTable& ripple : table.tables("ripple")) {
     const auto joint = ripple.integer("joint", 0);
@@ -36,6 +36,7 @@ void read_extra_torque(const TomlTable& table, Chain& chain) {
                                    positive(shared, "width", 0.01),
                                    not_negative(shared, "rotor_inertia", 0.0)});
   }
+  return chain;
 }
 
 std::string extra_torque_text(const Chain& chain, const std::string& prefix) {

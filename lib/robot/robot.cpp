@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "lib/core/error.hpp"
 
@@ -47,7 +48,8 @@ Robot preset_robot(const std::string& axes) {
   robot.chain.friction.resize(count);
   robot.chain.rotor_inertia.assign(count, 0.0);
   robot.chain.length.assign(count, 1.0);
-  set_masses_and_lengths(robot, std::vector<double>(count, 1.0), std::vector<double>(count, 1.0));
+  robot = with_masses_and_lengths(std::move(robot), std::vector<double>(count, 1.0),
+                                  std::vector<double>(count, 1.0));
   for (std::size_t i = 0; i < count; ++i) {
     if (robot.shapes[i] != LinkShape::rod) robot.chain.length[i] = 0.0;
     if (robot.shapes[i] == LinkShape::general)
@@ -62,20 +64,21 @@ Eigen::Vector3d link_direction(const Robot& robot, int i) {
   return direction.isZero() ? Eigen::Vector3d::UnitX() : direction;
 }
 
-void set_tip(Robot& robot, const Eigen::Vector3d& tip) {
+Robot with_tip(Robot robot, const Eigen::Vector3d& tip) {
   const double reach = tip.norm();
   JointGeometry& last = robot.chain.geometry.back();
-  if (reach == 0.0 || last.kind == AxisKind::prismatic) return;
+  if (reach == 0.0 || last.kind == AxisKind::prismatic) return robot;
   const Eigen::Vector3d direction = tip / reach;
   if (robot.joints() > 1)
     last.direction = direction;  // the link before has no length: the joint does not move
   else if (direction != Eigen::Vector3d::UnitX())
-    return;
+    return robot;
   robot.chain.length.back() = reach;
+  return robot;
 }
 
-void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses,
-                            const std::vector<double>& lengths) {
+Robot with_masses_and_lengths(Robot robot, const std::vector<double>& masses,
+                              const std::vector<double>& lengths) {
   for (int i = 0; i < robot.joints(); ++i) {
     robot.chain.length[i] = lengths[i];
     if (robot.shapes[i] == LinkShape::rod)
@@ -83,6 +86,7 @@ void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses,
     else if (robot.shapes[i] == LinkShape::point)
       robot.chain.links[i] = point_mass(masses[i]);
   }
+  return robot;
 }
 
 }  // namespace faultline

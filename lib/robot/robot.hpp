@@ -86,13 +86,14 @@ Robot preset_robot(const std::string& axes);
 /// direction.
 Eigen::Vector3d link_direction(const Robot& robot, int i);
 
-/// Sets the tip (m, in the last link's frame at q = 0) of a chain whose joints are placed by offsets alone,
-/// all lengths 0. A chain can hold a tip only beyond a revolute last joint and, if that is the only joint,
-/// along x; any other tip is ignored: it stays at the last joint.
-void set_tip(Robot& robot, const Eigen::Vector3d& tip);
+/// Returns the robot with a tip (m, in the last link's frame at q = 0). Its joints are placed by offsets
+/// alone, all lengths 0. A chain can hold a tip only beyond a revolute last joint and, if that is the only
+/// joint, along x; any other tip is ignored: it stays at the last joint.
+Robot with_tip(Robot robot, const Eigen::Vector3d& tip);
 
-/// Sets the links of `robot` of shape rod or point from masses (kg) and lengths (m), one for each joint.
-void set_masses_and_lengths(Robot& robot, const std::vector<double>& masses,
-                            const std::vector<double>& lengths);
+/// Returns the robot with links of these masses (kg) and lengths (m), one for each joint; the bodies of
+/// general shape stay.
+Robot with_masses_and_lengths(Robot robot, const std::vector<double>& masses,
+                              const std::vector<double>& lengths);
 
 }  // namespace faultline

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "lib/core/error.hpp"
 #include "lib/robot/dh/denavit_hartenberg.hpp"
@@ -49,7 +50,7 @@ Robot chain_from_joints(const TomlTable& table, const std::vector<TomlTable>& jo
 }
 
 /// Reads axis, offset and direction from the tables of the joints that give them.
-void read_geometry(Robot& robot, const std::vector<TomlTable>& joints) {
+Robot read_geometry(const std::vector<TomlTable>& joints, Robot robot) {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     JointGeometry& geometry = robot.chain.geometry[i];
     geometry.axis = unit_vector(joints[i], "axis", geometry.axis);
@@ -64,9 +65,10 @@ void read_geometry(Robot& robot, const std::vector<TomlTable>& joints) {
       joints[i].fail("kind", fmt::format("contradicts axes = \"{}\", in which this joint is {}", robot.axes,
                                          to_string(geometry.kind)));
   }
+  return robot;
 }
 
-void read_link(Robot& robot, int i, const TomlTable& table) {
+Robot read_link(const TomlTable& table, int i, Robot robot) {
   if (table.has("shape")) {
     robot.shapes[i] = table.choice_of("shape", {LinkShape::rod, LinkShape::point, LinkShape::general});
   } else if (table.has("inertia") || table.has("centre") || table.has("inertia_at_joint")) {
@@ -89,20 +91,23 @@ void read_link(Robot& robot, int i, const TomlTable& table) {
         mass, vector3(table, "centre", {0, 0, 0}),
         stated ? inertia_tensor(table, "inertia") : Eigen::Matrix3d(0.01 * Eigen::Matrix3d::Identity()));
   }
+  return robot;
 }
 
 /// Reads [[link]]: lengths, masses and shapes; without [[link]], keeps those of `axes` or sets defaults.
-void read_links(Robot& robot, const TomlTable& table) {
+Robot read_links(const TomlTable& table, Robot robot) {
   const auto links = table.tables("link");
   if (!links.empty() && static_cast<int>(links.size()) != robot.joints())
     table.fail("link", fmt::format("expected one [[link]] for each of the {} joints, base to tip, found {}",
                                    robot.joints(), links.size()));
   if (links.empty() && robot.chain.length.empty()) {  // a chain given axis by axis: unit masses and lengths
     robot.chain.length.assign(robot.joints(), 0.0);
-    for (int i = 0; i < robot.joints(); ++i) read_link(robot, i, TomlTable::parse("", ""));
+    for (int i = 0; i < robot.joints(); ++i) robot = read_link(TomlTable::parse("", ""), i, std::move(robot));
   }
   robot.chain.length.resize(robot.joints(), 0.0);
-  for (std::size_t i = 0; i < links.size(); ++i) read_link(robot, static_cast<int>(i), links[i]);
+  for (std::size_t i = 0; i < links.size(); ++i)
+    robot = read_link(links[i], static_cast<int>(i), std::move(robot));
+  return robot;
 }
 
 void check_load(const TomlTable& table, const std::string& key, double load) {
@@ -110,7 +115,7 @@ void check_load(const TomlTable& table, const std::string& key, double load) {
     table.fail(key, fmt::format("expected a share of the torque below {}, found {}", kMostLoad, load));
 }
 
-void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlTable>& joints) {
+Robot read_friction(const TomlTable& table, const std::vector<TomlTable>& joints, Robot robot) {
   const int n = robot.joints();
   const TomlTable friction = table.table("friction");
   const auto set = [&](const TomlTable& from, const char* key, double Friction::*member, bool any_sign) {
@@ -147,6 +152,7 @@ void read_friction(Robot& robot, const TomlTable& table, const std::vector<TomlT
     check_load(own, "load", f.load);
     robot.chain.rotor_inertia[i] = not_negative(joints[i], "rotor_inertia", robot.chain.rotor_inertia[i]);
   }
+  return robot;
 }
 
 KnownValue known_value(const TomlTable& table, const std::string& key) {
@@ -155,12 +161,12 @@ KnownValue known_value(const TomlTable& table, const std::string& key) {
   return {fact.number("value"), not_negative(fact, "std", 0.0)};
 }
 
-void read_identified(Robot& robot, const TomlTable& table) {
+Robot read_identified(const TomlTable& table, Robot robot) {
   robot.identified = table.has("identified");
   const TomlTable identified = table.table("identified");
-  if (!robot.identified) return;
+  if (!robot.identified) return robot;
   if (identified.has("torque_phi")) robot.torque_phi = identified.number("torque_phi");
-  read_drives(robot, identified);
+  robot = read_drives(identified, std::move(robot));
   const auto joints = identified.tables("joint");
   if (static_cast<int>(joints.size()) != robot.joints())
     identified.fail("joint",
@@ -185,21 +191,23 @@ void read_identified(Robot& robot, const TomlTable& table) {
   }
   robot.chain.ripples.clear();
   robot.chain.shared_drives.clear();
-  read_extra_torque(identified, robot.chain);
+  robot.chain = read_extra_torque(identified, std::move(robot.chain));
+  return robot;
 }
 
 }  // namespace
 
-void read_drives(Robot& robot, const TomlTable& table) {
+Robot read_drives(const TomlTable& table, Robot robot) {
   const auto read = [&](const char* key, std::vector<double>& values) {
     if (table.has(key)) values = table.each(key, robot.joints());
   };
   read("torque_delay_s", robot.torque_delay_s);
   read("torque_gain", robot.torque_gain);
   read("gear_compliance", robot.gear_compliance);
+  return robot;
 }
 
-void read_known(Robot& robot, const TomlTable& table) {
+Robot read_known(const TomlTable& table, Robot robot) {
   const TomlTable known = table.table("known");
   const auto names = parameter_names(robot.joints());
   for (const std::string& key : known.keys()) {
@@ -220,6 +228,7 @@ void read_known(Robot& robot, const TomlTable& table) {
   }
   const TomlTable payload = table.table("payload");
   for (const std::string& key : payload.keys()) robot.payloads[key] = known_value(payload, key);
+  return robot;
 }
 
 Robot robot_from_table(const TomlTable& table) {
@@ -241,17 +250,16 @@ Robot robot_from_table(const TomlTable& table) {
   }
   robot.name = table.text("name", robot.axes.empty() ? "robot" : robot.axes);
   robot.chain.gravity = vector3(table, "gravity", robot.chain.gravity);
-  read_geometry(robot, joints);
-  read_links(robot, table);
-  read_friction(robot, table, joints);
-  read_extra_torque(table, robot.chain);
-  read_known(robot, table);
-  read_dh(robot, table, joints);
+  robot = read_geometry(joints, std::move(robot));
+  robot = read_links(table, std::move(robot));
+  robot = read_friction(table, joints, std::move(robot));
+  robot.chain = read_extra_torque(table, std::move(robot.chain));
+  robot = read_known(table, std::move(robot));
+  robot = read_dh(table, joints, std::move(robot));
   robot.log = log_meaning_from_table(table.table("log"), robot.joints());
   robot.normal = normal_range_from_table(table.table("normal"));
   robot.least_sizes = least_sizes_from_table(table.table("least_size"));
-  read_identified(robot, table);
-  return robot;
+  return read_identified(table, std::move(robot));
 }
 
 Robot robot_from_toml(const std::string& text, const std::string& where) {

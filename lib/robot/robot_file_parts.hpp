@@ -9,11 +9,12 @@
 /// Readers and writers of the sections of a robot file that other files contain, too.
 namespace faultline {
 
-/// Reads [known] and [payload], and sets the known values in the chain.
-void read_known(Robot& robot, const TomlTable& table);
+/// Returns the robot with [known] and [payload], and with the known values in its chain.
+Robot read_known(const TomlTable& table, Robot robot);
 
-/// Reads the identified parameters of the drives and torque columns: delay, gain, gear compliance.
-void read_drives(Robot& robot, const TomlTable& table);
+/// Returns the robot with the identified parameters of the drives and torque columns: delay, gain, gear
+/// compliance.
+Robot read_drives(const TomlTable& table, Robot robot);
 std::string drive_text(const Robot& robot);
 
 /// Returns [known] and [payload]; "" if both are empty.

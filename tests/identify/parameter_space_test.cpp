@@ -17,7 +17,7 @@ std::vector<std::string> names(const ParameterSpace& space) {
 TEST(ParameterSpace, ScaraHasTheFourBaseParametersOfTheClosedForm) {
   const double m1 = 1.3, m2 = 0.8, m3 = 0.5, l1 = 0.9, l2 = 0.7;
   Robot nominal = preset_robot("RRP"), truth = nominal;
-  set_masses_and_lengths(truth, {m1, m2, m3}, {l1, l2, 0.0});
+  truth = with_masses_and_lengths(truth, {m1, m2, m3}, {l1, l2, 0.0});
   const ParameterSpace space = parameter_space(nominal);
   EXPECT_EQ(names(space), (std::vector<std::string>{"a", "b", "c", "m3", "jr2", "jr3"}));
   const auto p = parameters_of(space, truth.chain, 0.0);
@@ -29,7 +29,7 @@ TEST(ParameterSpace, ScaraHasTheFourBaseParametersOfTheClosedForm) {
 
 TEST(ParameterSpace, NominalLengthsReproduceTheTorquesOfTheRealScara) {
   Robot nominal = preset_robot("RRP"), truth = nominal;
-  set_masses_and_lengths(truth, {1.3, 0.8, 0.5}, {0.9, 0.7, 0.0});
+  truth = with_masses_and_lengths(truth, {1.3, 0.8, 0.5}, {0.9, 0.7, 0.0});
   const ParameterSpace space = parameter_space(nominal);
   const Chain chain = chain_from(space, parameters_of(space, truth.chain, 0.0));
   JointVector q(3), dq(3), ddq(3);
@@ -49,7 +49,7 @@ TEST(ParameterSpace, VerticalDoublePendulumHasItsGravityMoments) {
 
 TEST(ParameterSpace, RotorsFeltApartFromTheLinksAreBaseParameters) {
   Robot nominal = preset_robot("RRP"), truth = nominal;
-  set_masses_and_lengths(truth, {1.3, 0.8, 0.5}, {0.9, 0.7, 0.0});
+  truth = with_masses_and_lengths(truth, {1.3, 0.8, 0.5}, {0.9, 0.7, 0.0});
   truth.chain.rotor_inertia = {0.3, 0.02, 0.1};
   const ParameterSpace space = parameter_space(nominal);
   const auto p = parameters_of(space, truth.chain, 0.0);

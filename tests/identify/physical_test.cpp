@@ -11,7 +11,7 @@ namespace {
 
 PhysicalFit solve(const Robot& nominal, KnownValue payload = {0.0, 0.0}, double carried = 0.0) {
   Robot truth = preset_robot("RRP");
-  set_masses_and_lengths(truth, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
+  truth = with_masses_and_lengths(truth, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
   const ParameterSpace space = parameter_space(nominal);
   const Eigen::VectorXd p = parameters_of(space, truth.chain, 0.0);
   const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(p.size(), p.size()) * 1e-10;
@@ -48,7 +48,7 @@ TEST(PhysicalParameters, WithoutAFactTheMissingOneIsNamed) {
 TEST(PhysicalParameters, ALengthThatIsNotToldIsGuessedFromPositiveMasses) {
   Robot nominal = preset_robot("RRP"), truth = nominal;
   nominal.known["l1"] = {0.35, 0.0};
-  set_masses_and_lengths(truth, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
+  truth = with_masses_and_lengths(truth, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
   const ParameterSpace space = parameter_space(nominal);
   const Eigen::VectorXd p = parameters_of(space, truth.chain, 0.0);
   std::vector<bool> usable(space.rigid(), true);
@@ -97,7 +97,7 @@ PhysicalFit solve_arm(double rotor_1, double relative_std) {
   Robot nominal = preset_robot("RR");
   nominal.chain.gravity = {0.0, -9.81, 0.0};
   Robot truth = nominal;
-  set_masses_and_lengths(truth, {4.0, 2.5}, {0.4, 0.35});
+  truth = with_masses_and_lengths(truth, {4.0, 2.5}, {0.4, 0.35});
   truth.chain.rotor_inertia = {rotor_1, 0.0};
   nominal.known["l1"] = {0.4, 0.0};
   const ParameterSpace space = parameter_space(nominal);

@@ -19,7 +19,7 @@ constexpr double kFirst_m = 0.25, kSecond_m = 0.2;
 
 Robot truth() {
   Robot robot = preset_robot("RRPR");
-  set_masses_and_lengths(robot, {3.0, 2.0, 0.7, 0.0}, {kFirst_m, kSecond_m, 0.0, 0.0});
+  robot = with_masses_and_lengths(robot, {3.0, 2.0, 0.7, 0.0}, {kFirst_m, kSecond_m, 0.0, 0.0});
   robot.chain.links[3] =
       general_body(0.6, {0.05, 0.02, -0.05}, Eigen::Vector3d(1e-3, 1e-3, 4e-3).asDiagonal());
   robot.chain.friction = {

@@ -18,7 +18,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// A vertical slide of 2 kg.
 Chain slide() {
   Robot robot = preset_robot("P");
-  set_masses_and_lengths(robot, {2.0}, {0.0});
+  robot = with_masses_and_lengths(robot, {2.0}, {0.0});
   robot.chain.friction = {{4.0, 0.3, 0.0, 0.01}};
   return robot.chain;
 }

@@ -10,7 +10,7 @@ namespace faultline {
 /// A vertical slide of 2 kg with friction, one prismatic axis, so that learning it takes seconds.
 inline Robot small_robot() {
   Robot robot = preset_robot("P");
-  set_masses_and_lengths(robot, {2.0}, {0.0});
+  robot = with_masses_and_lengths(robot, {2.0}, {0.0});
   robot.chain.friction = {{4.0, 1.5, 0.0, 0.01}};
   robot.name = "slide";
   robot.log.torque_between_samples = TorqueTiming::held;

@@ -37,7 +37,7 @@ TEST(LearnResidual, PhysicsIsExactAndHybridRepairsAWrongRobot) {
   const Log log = bench_log(bench_robot(), {.duration_s = 130.0});
   EXPECT_LT(learn_on(log, bench_robot(), {.kind = ResidualKind::physics}).normalised_mse, 1e-18);
   Robot wrong = bench_robot();
-  set_masses_and_lengths(wrong, {1.1, 0.84, 0.53}, {1.0, 0.8, 0.0});
+  wrong = with_masses_and_lengths(wrong, {1.1, 0.84, 0.53}, {1.0, 0.8, 0.0});
   const double physics = learn_on(log, wrong, {.kind = ResidualKind::physics}).normalised_mse;
   const LearnedResidual hybrid = learn_on(
       log, wrong, {.kind = ResidualKind::hybrid, .hidden = {20}, .max_patterns = 1000, .max_iterations = 25});

@@ -20,7 +20,7 @@ JointVector draw(Random& random, int n, double scale) {
 TEST(Dynamics, ScaraEqualsTheClosedForm) {
   const double m1 = 1.3, m2 = 0.8, m3 = 0.5, l1 = 0.9, l2 = 0.7, g = 9.81;
   Robot robot = preset_robot("RRP");
-  set_masses_and_lengths(robot, {m1, m2, m3}, {l1, l2, 0.0});
+  robot = with_masses_and_lengths(robot, {m1, m2, m3}, {l1, l2, 0.0});
   const double a = l1 * l1 * (m1 / 3 + m2 + m3), b = l2 * l2 * (m2 / 3 + m3), c = l1 * l2 * (m2 / 2 + m3);
   Random random(3);
   for (int k = 0; k < 50; ++k) {

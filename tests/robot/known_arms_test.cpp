@@ -42,8 +42,8 @@ TEST(KnownArms, ScaraOrdersAgreeOnTheSameArm) {
   // carries the arm on the lift: its R joints feel what an RR arm feels, its P joint the weight of all.
   Random random(31);
   Robot rrp = preset_robot("RRP"), rrpr = preset_robot("RRPR");
-  set_masses_and_lengths(rrp, {2.0, 1.5, 1.2}, {0.5, 0.4, 0.0});
-  set_masses_and_lengths(rrpr, {2.0, 1.5, 0.7, 0.0}, {0.5, 0.4, 0.0, 0.0});
+  rrp = with_masses_and_lengths(rrp, {2.0, 1.5, 1.2}, {0.5, 0.4, 0.0});
+  rrpr = with_masses_and_lengths(rrpr, {2.0, 1.5, 0.7, 0.0}, {0.5, 0.4, 0.0, 0.0});
   rrpr.chain.links[3] = general_body(0.5, {0, 0, -0.1}, 1e-3 * Eigen::Matrix3d::Identity());
   const Vector q = draw(random, 4, 1.0), dq = draw(random, 4, 1.0), ddq = draw(random, 4, 2.0);
   const Vector three =
@@ -56,11 +56,11 @@ TEST(KnownArms, ScaraOrdersAgreeOnTheSameArm) {
   EXPECT_NEAR(four[3], tool, 1e-12);
 
   Robot rprr = preset_robot("RPRR");
-  set_masses_and_lengths(rprr, {2.0, 1.0, 1.5, 0.5}, {0.3, 0.0, 0.5, 0.4});
+  rprr = with_masses_and_lengths(rprr, {2.0, 1.0, 1.5, 0.5}, {0.3, 0.0, 0.5, 0.4});
   const Vector tau = inverse_dynamics(rprr.chain, q, dq, ddq);
   EXPECT_NEAR(tau[1], (1.0 + 1.5 + 0.5) * (ddq[1] + 9.81), 1e-12);
   Robot rr = preset_robot("RR");
-  set_masses_and_lengths(rr, {1.5, 0.5}, {0.5, 0.4});
+  rr = with_masses_and_lengths(rr, {1.5, 0.5}, {0.5, 0.4});
   Vector still_q(2), still_dq(2), still_ddq(2);
   still_q << q[2], q[3];
   still_dq << dq[2], dq[3];
@@ -75,14 +75,14 @@ TEST(KnownArms, ScaraOrdersAgreeOnTheSameArm) {
 
 TEST(KnownArms, TipFollowsTheLinks) {
   Robot robot = preset_robot("RRP");
-  set_masses_and_lengths(robot, {1, 1, 1}, {0.5, 0.4, 0.0});
+  robot = with_masses_and_lengths(robot, {1, 1, 1}, {0.5, 0.4, 0.0});
   Vector q(3);
   q << 0.3, 0.4, -0.2;
   const auto tip = tip_position(robot.chain, q);
   EXPECT_NEAR(tip.x(), 0.5 * std::cos(0.3) + 0.4 * std::cos(0.7), 1e-15);
   EXPECT_NEAR(tip.z(), -0.2, 1e-15);
   Robot single = preset_robot("R");
-  set_masses_and_lengths(single, {1}, {0.5});
+  single = with_masses_and_lengths(single, {1}, {0.5});
   EXPECT_NEAR(tip_position(single.chain, Vector(q.head(1))).y(), 0.5 * std::sin(0.3), 1e-15);
 }
 

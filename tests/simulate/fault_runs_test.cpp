@@ -99,7 +99,7 @@ TEST(SimulateFaults, PayloadAddsMassAtTheTip) {
   const Robot robot = industrial();
   const SimulatedRun run = simulate(robot, with_fault(FaultKind::payload_change, 3, 1.0, 1.0));
   Robot loaded = industrial();
-  set_masses_and_lengths(loaded, {8.0, 5.0, 3.5}, {0.35, 0.3, 0.0});
+  loaded = with_masses_and_lengths(loaded, {8.0, 5.0, 3.5}, {0.35, 0.3, 0.0});
   for (int k = 1100; k < 2900; k += 180) {
     const JointVector applied = 0.5 * (row_of(run.log.tau, k) + row_of(run.log.tau, k - 1));
     EXPECT_LT((torque_needed(loaded.chain, run.log, k) - applied).cwiseAbs().maxCoeff(), 0.2);

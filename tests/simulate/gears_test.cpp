@@ -123,7 +123,7 @@ double energy_of(const Robot& links, const Plant& plant, const GearSpec& gears) 
 
 TEST(Gears, AnArmWithSomeSpringsKeepsItsEnergy) {
   Robot robot = preset_robot("RRP");
-  set_masses_and_lengths(robot, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
+  robot = with_masses_and_lengths(robot, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
   robot.chain.friction.assign(3, {});
   robot.chain.rotor_inertia = {0.0, 0.4, 0.0};
   MachineSpec machine;
@@ -198,7 +198,7 @@ TEST(Gears, AStopHoldsTheLinkWhileTheMotorWindsTheSpring) {
 
 TEST(Gears, AWeightHangsAtRestFromTheStart) {
   Robot robot = preset_robot("P");
-  set_masses_and_lengths(robot, {3.0}, {0.0});
+  robot = with_masses_and_lengths(robot, {3.0}, {0.0});
   robot.chain.friction = {{}};
   MachineSpec machine;
   machine.gears = {.stiffness = {2e4}, .play = {1e-3}, .motor_inertia = {5.0}};

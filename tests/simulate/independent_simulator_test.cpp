@@ -25,7 +25,7 @@ TEST(IndependentSimulator, OurPlantRepeatsItsHeldHealthyLog) {
   const Log log = read_all(*source);
   ASSERT_GT(log.rows(), 800);
   Robot robot = preset_robot("RRP");
-  set_masses_and_lengths(robot, {1.0, 0.8, 0.5}, {1.0, 0.8, 0.0});
+  robot = with_masses_and_lengths(robot, {1.0, 0.8, 0.5}, {1.0, 0.8, 0.0});
   Plant plant(robot, {}, {}, 1e-3);
   JointVector tau(3);
   double worst = 0.0;

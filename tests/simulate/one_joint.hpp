@@ -11,7 +11,7 @@ constexpr double kRodInertia = 4.0 * 0.3 * 0.3 / 3.0;  // of a rod of 4 kg and 0
 
 inline Robot one_joint() {
   Robot robot = preset_robot("R");
-  set_masses_and_lengths(robot, {4.0}, {0.3});
+  robot = with_masses_and_lengths(robot, {4.0}, {0.3});
   robot.chain.friction = {{}};
   return robot;
 }

@@ -11,7 +11,7 @@ namespace faultline {
 
 inline Robot industrial() {
   Robot robot = preset_robot("RRP");
-  set_masses_and_lengths(robot, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
+  robot = with_masses_and_lengths(robot, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
   robot.chain.friction = {{2.0, 3.0, 0.0, 0.02}, {1.0, 2.0, 0.0, 0.02}, {20.0, 8.0, 0.0, 0.01}};
   return robot;
 }

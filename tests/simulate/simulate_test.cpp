@@ -129,7 +129,7 @@ double largest_difference(const JointSignals& a, const JointSignals& b) {
 
 TEST(Simulate, TheStepIsShortEnoughForStiffFriction) {
   Robot robot = preset_robot("RRPR");
-  set_masses_and_lengths(robot, {3.0, 2.0, 0.7, 0.4}, {0.25, 0.2, 0.0, 0.0});
+  robot = with_masses_and_lengths(robot, {3.0, 2.0, 0.7, 0.4}, {0.25, 0.2, 0.0, 0.0});
   robot.chain.links[3] = general_body(0.4, {0, 0, -0.05}, 2e-3 * Eigen::Matrix3d::Identity());
   robot.chain.friction = {
       {0.6, 0.8, 0, 0.03}, {0.4, 0.5, 0, 0.03}, {5.0, 2.0, 0, 0.01}, {0.02, 0.1, 0, 0.02}};

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "lib/core/error.hpp"
 #include "lib/core/parallel.hpp"
@@ -59,7 +60,7 @@ Errors hybrid_errors(const Chain& chain, double torque_phi, const GeneratorScale
 /// Masses 5 % too large and no friction.
 Chain wrong_chain() {
   Robot robot = bench_robot();
-  set_masses_and_lengths(robot, {1.05, 0.84, 0.525}, {1.0, 0.8, 0.0});
+  robot = with_masses_and_lengths(std::move(robot), {1.05, 0.84, 0.525}, {1.0, 0.8, 0.0});
   return robot.chain;
 }
 

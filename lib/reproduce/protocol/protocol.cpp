@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lib/core/random.hpp"
 #include "lib/simulate/simulate.hpp"
@@ -66,7 +67,7 @@ ControllerSpec controller_spec(ControllerVariant controller) {
 Robot bench_robot() {
   Robot robot = preset_robot("RRP");
   robot.name = "bench";
-  set_masses_and_lengths(robot, {1.0, 0.8, 0.5}, {1.0, 0.8, 0.0});
+  robot = with_masses_and_lengths(std::move(robot), {1.0, 0.8, 0.5}, {1.0, 0.8, 0.0});
   robot.log.torque_between_samples = TorqueTiming::held;
   robot.identified = true;
   return robot;

@@ -44,8 +44,9 @@ DhGeometry dh_geometry(const std::vector<AxisKind>& kinds, const std::vector<DhR
 
 /// Whether the joint's table has a row of the standard (`dh`) or the modified (`mdh`) convention.
 bool has_dh_row(const TomlTable& joint);
-/// Sets geometry and tip from the rows, if there are any. Fails if only some joints have a row, if both
-/// conventions are mixed, or if another key places joints too: `axes`, axis, offset, direction, lengths.
-void read_dh(Robot& robot, const TomlTable& table, const std::vector<TomlTable>& joints);
+/// Returns the robot with geometry and tip of the rows, if there are any. Fails if only some joints have a
+/// row, if both conventions are mixed, or if another key places joints too: `axes`, axis, offset, direction,
+/// lengths.
+Robot read_dh(const TomlTable& table, const std::vector<TomlTable>& joints, Robot robot);
 
 }  // namespace faultline

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "lib/robot/dh/denavit_hartenberg.hpp"
 
@@ -50,9 +51,9 @@ DhRow read_row(const TomlTable& joint, DhConvention convention) {
 
 bool has_dh_row(const TomlTable& joint) { return joint.has("dh") || joint.has("mdh"); }
 
-void read_dh(Robot& robot, const TomlTable& table, const std::vector<TomlTable>& joints) {
+Robot read_dh(const TomlTable& table, const std::vector<TomlTable>& joints, Robot robot) {
   const auto first = std::find_if(joints.begin(), joints.end(), has_dh_row);
-  if (first == joints.end()) return;
+  if (first == joints.end()) return robot;
   const auto convention = first->has("dh") ? DhConvention::standard : DhConvention::modified;
   refuse_other_placement(robot, table, joints, key_of(convention));
   std::vector<AxisKind> kinds;
@@ -63,7 +64,7 @@ void read_dh(Robot& robot, const TomlTable& table, const std::vector<TomlTable>&
   }
   const DhGeometry geometry = dh_geometry(kinds, rows, convention);
   robot.chain.geometry = geometry.joints;
-  set_tip(robot, geometry.tip);
+  return with_tip(std::move(robot), geometry.tip);
 }
 
 }  // namespace faultline

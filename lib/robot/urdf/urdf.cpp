@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "lib/core/atomic_file.hpp"
@@ -266,11 +267,8 @@ Robot robot_from_urdf(const std::string& text, const std::string& file) {
   }
   if (!finite(chain))
     throw Error(ErrorCode::input, file, "has numbers so large that they overflow; expected SI units");
-  if (model.more)
-    read_urdf_more(robot, *model.more, file + ", <faultline>");
-  else
-    set_tip(robot, from.tip);
-  return robot;
+  if (model.more) return read_urdf_more(*model.more, file + ", <faultline>", std::move(robot));
+  return with_tip(std::move(robot), from.tip);
 }
 
 }  // namespace faultline

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "lib/core/text.hpp"
 #include "lib/robot/extra_torque_file.hpp"
@@ -31,9 +32,7 @@ std::string more_link(const Robot& robot, int i) {
                                  toml_number(robot.chain.length[i]));
   const Eigen::Vector3d& direction = robot.chain.geometry[i].direction;
   if (!direction.isZero()) text += fmt::format("direction = {}\n", toml_numbers(direction));
-  Eigen::Vector3d centre;
-  Eigen::Matrix3d inertia;
-  if (!about_centre(link, centre, inertia))
+  if (!about_centre(link).converts_back)
     text += fmt::format("first_moment = {}\ninertia_at_joint = {}\n", toml_numbers(link.first_moment),
                         toml_tensor(link.inertia));
   return text;
@@ -41,7 +40,7 @@ std::string more_link(const Robot& robot, int i) {
 
 /// Reads rotor inertias and friction. Identified rotor inertias may be negative: the split is not
 /// identifiable.
-void read_friction(Robot& robot, const TomlTable& table) {
+Robot read_friction(const TomlTable& table, Robot robot) {
   const int n = robot.joints();
   if (table.has("rotor_inertia")) robot.chain.rotor_inertia = table.each("rotor_inertia", n);
   if (!robot.identified) check_signs(table, "rotor_inertia", robot.chain.rotor_inertia, true);
@@ -57,7 +56,7 @@ void read_friction(Robot& robot, const TomlTable& table) {
     const auto load = friction.each("load", n);
     for (int i = 0; i < n; ++i) robot.chain.friction[i].load = load[i];
   }
-  if (!friction.has("bend")) return;
+  if (!friction.has("bend")) return robot;
   const auto bend = friction.each("bend", n), skew = friction.each("skew", n),
              bend_width = friction.each("bend_width", n);
   check_signs(friction, "bend_width", bend_width, false);
@@ -66,9 +65,10 @@ void read_friction(Robot& robot, const TomlTable& table) {
     robot.chain.friction[i].skew = skew[i];
     robot.chain.friction[i].bend_width = bend_width[i];
   }
+  return robot;
 }
 
-void read_axes(Robot& robot, const TomlTable& table) {
+Robot read_axes(const TomlTable& table, Robot robot) {
   robot.axes = table.text("axes", "");
   std::string kinds;
   for (const JointGeometry& joint : robot.chain.geometry)
@@ -76,10 +76,11 @@ void read_axes(Robot& robot, const TomlTable& table) {
   if (!robot.axes.empty() && robot.axes != kinds)
     table.fail("axes", fmt::format("expected \"{}\", as the joints of the file are, found \"{}\"", kinds,
                                    printable(robot.axes)));
+  return robot;
 }
 
 /// Moves a part of the joints' offsets into lengths and directions; the joints keep their places.
-void read_more_links(Robot& robot, const TomlTable& table) {
+Robot read_more_links(const TomlTable& table, Robot robot) {
   const auto links = table.tables("link");
   if (static_cast<int>(links.size()) != robot.joints())
     table.fail("link", fmt::format("expected one [[link]] for each of the {} moving joints of the file, "
@@ -99,23 +100,21 @@ void read_more_links(Robot& robot, const TomlTable& table) {
     robot.chain.links[i].first_moment = vector3(link, "first_moment", {0, 0, 0});
     robot.chain.links[i].inertia = inertia_tensor(link, "inertia_at_joint");
   }
+  return robot;
 }
 
 }  // namespace
 
-bool about_centre(const LinkInertia& link, Eigen::Vector3d& centre, Eigen::Matrix3d& inertia) {
-  centre.setZero();
-  inertia = link.inertia;
-  if (link.mass == 0.0) return link.first_moment.isZero(0.0);
-  centre = link.first_moment / link.mass;
-  inertia = link.inertia - general_body(link.mass, centre, Eigen::Matrix3d::Zero()).inertia;
+CentredBody about_centre(const LinkInertia& link) {
+  if (link.mass == 0.0) return {Eigen::Vector3d::Zero(), link.inertia, link.first_moment.isZero(0.0)};
+  const Eigen::Vector3d centre = link.first_moment / link.mass;
+  const Eigen::Matrix3d inertia =
+      link.inertia - general_body(link.mass, centre, Eigen::Matrix3d::Zero()).inertia;
   const LinkInertia again = general_body(link.mass, centre, inertia);
   const bool same = (again.inertia - link.inertia).norm() <= kSameBody * link.inertia.norm() &&
                     (again.first_moment - link.first_moment).norm() <= kSameBody * link.first_moment.norm();
-  if (same && centre.allFinite() && inertia.allFinite()) return true;
-  centre.setZero();
-  inertia = link.inertia;
-  return false;
+  if (same && centre.allFinite() && inertia.allFinite()) return {centre, inertia, true};
+  return {Eigen::Vector3d::Zero(), link.inertia, false};
 }
 
 std::string urdf_more_text(const Robot& robot) {
@@ -145,24 +144,25 @@ std::string urdf_more_text(const Robot& robot) {
          least_sizes_text(robot.least_sizes);
 }
 
-void read_urdf_more(Robot& robot, const std::string& text, const std::string& where) {
+Robot read_urdf_more(const std::string& text, const std::string& where, Robot robot) {
   const TomlTable table = TomlTable::parse(text, where);
   robot.name = table.text("name", robot.name);
   robot.chain.gravity = vector3(table, "gravity", robot.chain.gravity);
   robot.identified = table.flag("identified", false);
-  read_friction(robot, table);
-  read_extra_torque(table, robot.chain);
-  read_drives(robot, table);
+  robot = read_friction(table, std::move(robot));
+  robot.chain = read_extra_torque(table, std::move(robot.chain));
+  robot = read_drives(table, std::move(robot));
   if (table.has("torque_phi")) robot.torque_phi = table.number("torque_phi");
-  read_axes(robot, table);
-  read_more_links(robot, table);
+  robot = read_axes(table, std::move(robot));
+  robot = read_more_links(table, std::move(robot));
   const Chain chain = robot.chain;
-  read_known(robot, table);
+  robot = read_known(table, std::move(robot));
   if (robot.identified) robot.chain = chain;  // identified values take precedence over known ones
   robot.log = log_meaning_from_table(table.table("log"), robot.joints());
   robot.normal = normal_range_from_table(table.table("normal"));
   robot.least_sizes = least_sizes_from_table(table.table("least_size"));
   table.finish();
+  return robot;
 }
 
 }  // namespace faultline

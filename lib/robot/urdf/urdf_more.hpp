@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 
 #include "lib/robot/robot.hpp"
@@ -10,13 +11,18 @@ namespace faultline {
 
 std::string urdf_more_text(const Robot& robot);
 
-/// Adds them to a robot that was read from the rest of the file, whose joints, masses and friction stay as
-/// they are. Throws Error(usage) naming `where`, line and key, also if the text belongs to a robot with other
-/// joints.
-void read_urdf_more(Robot& robot, const std::string& text, const std::string& where);
+/// Returns `robot`, which was read from the rest of the file, with these properties; its joints, masses and
+/// friction stay as they are. Throws Error(usage) naming `where`, line and key, also if the text belongs to a
+/// robot with other joints.
+Robot read_urdf_more(const std::string& text, const std::string& where, Robot robot);
 
-/// Returns by reference the link's centre of mass (m) and inertia about it (kg m^2), as URDF needs them;
-/// false if they do not convert back to the same numbers, as for a first moment without mass.
-bool about_centre(const LinkInertia& link, Eigen::Vector3d& centre, Eigen::Matrix3d& inertia);
+/// A link as URDF needs it.
+struct CentredBody {
+  Eigen::Vector3d centre;      ///< of mass, m
+  Eigen::Matrix3d inertia;     ///< about it, kg m^2
+  bool converts_back = false;  ///< to the same numbers; not so for a first moment without mass
+};
+
+CentredBody about_centre(const LinkInertia& link);
 
 }  // namespace faultline

@@ -35,9 +35,8 @@ std::string triple(const Eigen::Vector3d& v) { return fmt::format("{} {} {}", v.
 
 std::string urdf_link(const Robot& robot, int i) {
   const LinkInertia& link = robot.chain.links[i];
-  Eigen::Vector3d centre;
-  Eigen::Matrix3d inertia;
-  about_centre(link, centre, inertia);
+  const CentredBody body = about_centre(link);
+  const Eigen::Matrix3d& inertia = body.inertia;
   return fmt::format(
       "  <link name=\"link{}\">\n"
       "    <inertial>\n"
@@ -46,7 +45,7 @@ std::string urdf_link(const Robot& robot, int i) {
       "      <inertia ixx=\"{}\" ixy=\"{}\" ixz=\"{}\" iyy=\"{}\" iyz=\"{}\" izz=\"{}\"/>\n"
       "    </inertial>\n"
       "  </link>\n",
-      i + 1, triple(centre), link.mass, inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1),
+      i + 1, triple(body.centre), link.mass, inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1),
       inertia(1, 2), inertia(2, 2));
 }
 

@@ -133,7 +133,7 @@ TEST(QuestionReading, AFaultOfOneJointFromTheFirstRowOnRaisesNoDoubt) {
 
 TEST(QuestionReading, AnotherRobotIsDoubted) {
   Robot other = preset_robot("RRP");
-  set_masses_and_lengths(other, {2.0, 1.0, 0.5}, {0.2, 0.15, 0.0});
+  other = with_masses_and_lengths(other, {2.0, 1.0, 0.5}, {0.2, 0.15, 0.0});
   const LogMismatch doubt = doubt_of(simulate(other, rrp_run(10.0), 75).log);
   EXPECT_FALSE(doubt.is_empty());
 }

@@ -47,7 +47,7 @@ const Identification& poorly_excited() {
 Robot true_robot() {
   const testing::ClosedFormScara scara;
   Robot robot = bare_robot();
-  set_masses_and_lengths(robot, {scara.m1, scara.m2, scara.m3}, {scara.l1, scara.l2, 1.0});
+  robot = with_masses_and_lengths(robot, {scara.m1, scara.m2, scara.m3}, {scara.l1, scara.l2, 1.0});
   for (int j = 0; j < 3; ++j) {
     robot.chain.friction[j].viscous = scara.fv[j];
     robot.chain.friction[j].coulomb = scara.fc[j];

@@ -11,7 +11,7 @@ inline constexpr double kMass = 2.0, kGravity = 9.81;
 /// A vertical slide of 2 kg whose parameters are known exactly and whose torque is held over a sample.
 inline Robot exact_slide() {
   Robot robot = preset_robot("P");
-  set_masses_and_lengths(robot, {kMass}, {0.0});
+  robot = with_masses_and_lengths(robot, {kMass}, {0.0});
   robot.chain.friction = {{4.0, 1.5, 0.0, 0.01}};
   robot.log.torque_between_samples = TorqueTiming::held;
   robot.torque_phi = 0.0;
