@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "lib/core/matrix/decompositions.hpp"
@@ -123,7 +124,8 @@ std::vector<bool> shown_at_rest(const WeakSystem& s, const std::vector<int>& col
   return out;
 }
 
-void fill_parameters(const ParameterSpace& space, const std::vector<bool>& at_rest, Excitation& out) {
+/// Returns the excitation with its parameters and the least determined combination, from its moments.
+Excitation with_parameters(const ParameterSpace& space, const std::vector<bool>& at_rest, Excitation out) {
   const Inverse inverse = invert(out.moments, at_rest);
   for (const int column : out.columns)
     out.parameters.push_back({space.name(column), std::numeric_limits<double>::quiet_NaN(), ""});
@@ -138,7 +140,7 @@ void fill_parameters(const ParameterSpace& space, const std::vector<bool>& at_re
         hardest = k;
     if (count > 1) p.mixed_with = out.parameters[inverse.shown[hardest]].name;
   }
-  if (count == 0) return;
+  if (count == 0) return out;
   Eigen::Index largest = 0;
   inverse.weakest.cwiseAbs().maxCoeff(&largest);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -146,6 +148,7 @@ void fill_parameters(const ParameterSpace& space, const std::vector<bool>& at_re
     if (std::abs(weight) >= kWorthNaming)
       out.weakest.emplace_back(out.parameters[inverse.shown[i]].name, weight);
   }
+  return out;
 }
 
 }  // namespace
@@ -159,8 +162,8 @@ Excitation motion_excitation(const TorqueFit& torque, const ParameterSpace& spac
   out.columns = judged_columns(torque, space);
   out.joint_scale = joint_scales(space, residual_rms);
   out.moments = moments_of(torque.system, out.columns, out.joint_scale);
-  fill_parameters(space, shown_at_rest(torque.system, out.columns, still), out);
-  return out;
+  const std::vector<bool> at_rest = shown_at_rest(torque.system, out.columns, still);
+  return with_parameters(space, at_rest, std::move(out));
 }
 
 }  // namespace faultline

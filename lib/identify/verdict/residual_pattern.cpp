@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
@@ -112,8 +114,8 @@ std::vector<std::pair<std::size_t, std::size_t>> runs_of(const JointFit& fit, do
   return runs;
 }
 
-/// Adds the power of one segment at every frequency: the squared rms of a sine.
-void add_segment(std::span<const double> values, std::vector<double>& power) {
+/// Returns the power with that of one more segment at every frequency: the squared rms of a sine.
+std::vector<double> with_segment(std::span<const double> values, std::vector<double> power) {
   const std::size_t n = values.size();
   double mean = 0.0, norm = 0.0;
   for (const double v : values) mean += v / static_cast<double>(n);
@@ -134,40 +136,43 @@ void add_segment(std::span<const double> values, std::vector<double>& power) {
     }
     power[f] += 2.0 * (c * c + s * s) / (norm * static_cast<double>(n));
   }
+  return power;
 }
 
-/// Computes the spectrum of the residual, up to the highest frequency that half-overlapping windows show: the
+/// Rms in the band of each frequency.
+struct Spectrum {
+  std::vector<double> hz, rms;
+};
+
+/// Returns the spectrum of the residual, up to the highest frequency that half-overlapping windows show: the
 /// mean power of stretches of some seconds under a Hann taper (Welch 1967). Windows are averages, so it falls
 /// off towards 1 / window. Empty if no log is long enough.
-void add_spectrum(const JointFit& fit, ResidualPattern& pattern) {
+Spectrum spectrum_of(const JointFit& fit) {
+  Spectrum out;
   const double step_s = usual_step(fit);
   const auto runs = runs_of(fit, step_s);
   std::size_t longest = 0, segments = 0;
   for (const auto& [begin, end] : runs) longest = std::max(longest, end - begin);
   const std::size_t length = std::min(kSegment, longest);
-  if (length < kShortest || !(step_s > 0.0)) return;
+  if (length < kShortest || !(step_s > 0.0)) return out;
   std::vector<double> left(fit.size()), power(length / 2 - 1, 0.0);
   for (std::size_t k = 0; k < fit.size(); ++k) left[k] = fit.residual(k);
   for (const auto& [begin, end] : runs)
     for (std::size_t at = begin; at + length <= end; at += length / 2, ++segments)
-      add_segment(std::span(left).subspan(at, length), power);
+      power = with_segment(std::span(left).subspan(at, length), std::move(power));
   for (std::size_t f = 0; f < power.size(); ++f) {
-    pattern.spectrum_hz.push_back(static_cast<double>(f + 1) / (static_cast<double>(length) * step_s));
-    pattern.spectrum.push_back(std::sqrt(power[f] / static_cast<double>(segments)));
+    out.hz.push_back(static_cast<double>(f + 1) / (static_cast<double>(length) * step_s));
+    out.rms.push_back(std::sqrt(power[f] / static_cast<double>(segments)));
   }
+  return out;
 }
 
 }  // namespace
 
 ResidualPattern residual_pattern(const JointFit& fit) {
-  ResidualPattern out{explained_by(fit, fit.q),
-                      explained_by(fit, fit.dq),
-                      explained_by(fit, fit.modelled),
-                      explained_by_previous(fit),
-                      {},
-                      {}};
-  add_spectrum(fit, out);
-  return out;
+  Spectrum spectrum = spectrum_of(fit);
+  return {explained_by(fit, fit.q),   explained_by(fit, fit.dq), explained_by(fit, fit.modelled),
+          explained_by_previous(fit), std::move(spectrum.hz),    std::move(spectrum.rms)};
 }
 
 }  // namespace faultline

@@ -117,31 +117,32 @@ WeakSystem rows_of_log(const WeakSystem& all, const std::vector<int>& rows) {
   return out;
 }
 
-/// Numbers the blocks of one log, which may be shorter than those of all logs.
-void number_blocks(SingleLog& s) {
+/// Returns the rows of one log with blocks of its own, which may be shorter than those of all logs.
+WeakSystem with_blocks(WeakSystem system, const std::vector<double>& time_s) {
   std::set<long> seconds;
-  for (const double t : s.time_s) seconds.insert(static_cast<long>(std::floor(t)));
+  for (const double t : time_s) seconds.insert(static_cast<long>(std::floor(t)));
   const double block_s =
-      residual_block_s(static_cast<double>(seconds.size()), static_cast<double>(s.system.a.cols()));
+      residual_block_s(static_cast<double>(seconds.size()), static_cast<double>(system.a.cols()));
   std::map<long, int> blocks;
-  for (const double t : s.time_s)
-    s.system.block.push_back(
+  for (const double t : time_s)
+    system.block.push_back(
         blocks.emplace(static_cast<long>(std::floor(t / block_s)), static_cast<int>(blocks.size()))
             .first->second);
-  s.system.blocks = static_cast<int>(blocks.size());
+  system.blocks = static_cast<int>(blocks.size());
+  return system;
 }
 
-void keep_runs(SingleLog& s) {
-  for (int c = 0; c < s.system.a.cols(); ++c)
-    if (s.fit.free[c]) s.columns.push_back(c);
+std::vector<ResidualRun> runs_by_joint(const SingleLog& s) {
+  std::vector<ResidualRun> runs;
   for (int j = 0; j < s.system.joints; ++j) {
     std::vector<int> rows;
     for (std::size_t k = 0; k < s.system.joint.size(); ++k)
       if (s.system.joint[k] == j) rows.push_back(static_cast<int>(k));
     ResidualRun run{s.system.a(rows, s.columns), s.fit.weight(rows), s.fit.residual(rows), {}};
     for (const int k : rows) run.time_s.push_back(s.time_s[k]);
-    s.runs.push_back(std::move(run));
+    runs.push_back(std::move(run));
   }
+  return runs;
 }
 
 std::vector<SingleLog> fit_single_logs(const TorqueFit& torque, const ParameterSpace& space,
@@ -155,11 +156,12 @@ std::vector<SingleLog> fit_single_logs(const TorqueFit& torque, const ParameterS
   for (const auto& [log, of_log] : rows) {
     SingleLog& s = singles.emplace_back();
     s.log = log;
-    s.system = rows_of_log(torque.system, of_log);
     for (const int k : of_log) s.time_s.push_back(times[k]);
-    number_blocks(s);
+    s.system = with_blocks(rows_of_log(torque.system, of_log), s.time_s);
     s.fit = fit_weak_form(s.system, space, torque.fit.parameters, torque.wanted);
-    keep_runs(s);
+    for (int c = 0; c < s.system.a.cols(); ++c)
+      if (s.fit.free[c]) s.columns.push_back(c);
+    s.runs = runs_by_joint(s);
   }
   return singles;
 }
