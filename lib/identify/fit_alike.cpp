@@ -19,7 +19,6 @@
 #include "lib/identify/parameter_table.hpp"
 #include "lib/identify/shooting_stage.hpp"
 #include "lib/identify/torque_fit.hpp"
-#include "lib/identify/verdict/confounded_parameters.hpp"
 #include "lib/identify/verdict/fit_verdict.hpp"
 #include "lib/identify/wanted_parameters.hpp"
 #include "lib/identify/weak_form/weak_choice.hpp"

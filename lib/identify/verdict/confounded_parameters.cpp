@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/verdict/confounded_parameters.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "lib/core/matrix/decompositions.hpp"
+#include "lib/identify/parameter_space.hpp"
+#include "lib/identify/torque_fit.hpp"
+#include "lib/identify/verdict/fit_verdict.hpp"
 #include "lib/identify/weak_form/chooser.hpp"
 #include "lib/identify/weak_form/column_selection.hpp"
 
