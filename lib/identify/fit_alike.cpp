@@ -73,7 +73,7 @@ Identification with_values(Identification id, MethodValues values, bool has_dq) 
   return id;
 }
 
-/// Returns the widths of Coulomb friction, none below that of the robot file: sharp friction suits the
+/// Returns the parameters with friction at least as wide as in the robot file: sharp friction suits the
 /// regression, not simulation.
 Eigen::VectorXd with_smooth_friction(const Eigen::VectorXd& nominal, const ParameterSpace& space,
                                      Eigen::VectorXd parameters) {
@@ -82,7 +82,7 @@ Eigen::VectorXd with_smooth_friction(const Eigen::VectorXd& nominal, const Param
   return parameters;
 }
 
-/// The same for the drives that joints share.
+/// Returns the space with the friction of shared drives at least as wide as in the robot file.
 ParameterSpace with_smooth_drives(const Eigen::VectorXd& nominal, ParameterSpace space) {
   for (int j = 0; j < space.joints(); ++j)
     for (SharedDrive& f : space.chain.shared_drives)

@@ -22,8 +22,8 @@ FittedGenerator fit_residual_generator(ResidualGenerator untrained, const Transi
                                        const Transitions& validation, const ResidualOptions& options,
                                        const Progress& progress = {});
 
-/// The residuals that the generator has on transitions of healthy motion that were not trained on; those that
-/// it names already do not matter.
+/// Returns the residuals of the generator on transitions of healthy motion that were not trained on. Its own
+/// `healthy` may be empty.
 HealthyResiduals healthy_residuals(ResidualGenerator generator, const Transitions& check);
 
 }  // namespace faultline

@@ -54,8 +54,7 @@ std::vector<SimulatedFault> read_faults(const TomlTable& table, const Robot& rob
   return faults;
 }
 
-/// A simulation as far as it is read. "held" of the file also applies to a run with a sample period of its
-/// own.
+/// A simulation as far as it is read. "held" of the file applies to runs with a period of their own, too.
 struct ReadSimulation {
   SimulationSpec spec;
   bool held = false;  ///< the control period is the sample period

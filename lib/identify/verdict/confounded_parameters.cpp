@@ -81,7 +81,8 @@ std::vector<bool> undriven_parameters(const ParameterSpace& space, const std::ve
   return out;
 }
 
-/// Adds the rotors, and the masses beside them, that would be mixed with an excluded friction offset.
+/// Returns `confounded` with the rotors, and the masses beside them, that would be mixed with an excluded
+/// friction offset.
 Confounded with_offsets(const ParameterSpace& space, const Robot& robot, const TorqueFit& torque,
                         std::vector<bool> confounded) {
   Confounded out{std::move(confounded), {}};
