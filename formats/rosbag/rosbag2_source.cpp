@@ -315,8 +315,8 @@ std::int64_t big_endian(std::string_view bytes) {
 
 /// Returns the bytes of a database according to its head; 0 if the head is not valid.
 std::int64_t sqlite_bytes(std::string_view head) {
-  constexpr std::size_t kHeadBytes = 100;
-  if (head.size() < kHeadBytes || head.substr(24, 4) != head.substr(92, 4))
+  constexpr std::size_t kDatabaseHead = 100;
+  if (head.size() < kDatabaseHead || head.substr(24, 4) != head.substr(92, 4))
     return 0;  // not of the same change
   const std::int64_t page = big_endian(head.substr(16, 2)), pages = big_endian(head.substr(28, 4));
   return pages * (page == 1 ? 65536 : page);

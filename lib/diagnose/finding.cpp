@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kSureOfFriction = 0.95;  // confidence: below that of its interval, as other kinds may fit
 
-constexpr double kLeastShare = 0.15;  // of the votes: a label with less is not named as an alternative
+constexpr double kLeastVotes = 0.15;  // of the votes: a label with less is not named as an alternative
 constexpr double kLeastPush = 0.2;    // of the push on the named joint, each over its joint's usual torque
 
 /// A list of alternative labels with reasons, each label once, with its first reason.
@@ -47,7 +47,7 @@ void add_opinions(Alternatives& alternatives, const Episode& episode) {
 
 void add_votes(Alternatives& alternatives, const Votes& votes) {
   for (const LabelShare& share : votes.shares)
-    if (share.share >= kLeastShare)
+    if (share.share >= kLeastVotes)
       alternatives.add(share.label, fmt::format("similar cases and opinions give it {:.0f} % of the votes",
                                                 100.0 * share.share));
 }

@@ -23,7 +23,7 @@ constexpr double kFarBeyond = 3.0;    // normal ranges: beyond them the robot is
 constexpr double kWild = 150.0;  // times healthy: the largest residual of healthy logs stays below half of it
 constexpr double kRough = 3.0;   // times the noise of the learned logs: a fault may be hidden
 constexpr double kVerdictPercent = 100.0;
-constexpr std::int64_t kFewestRows = 20;  // usable rows: with fewer a robot cannot be judged
+constexpr std::int64_t kFewestUsableRows = 20;  // usable rows: with fewer a robot cannot be judged
 constexpr double kFewestJudged = 0.75;    // share of the log: with less a healthy verdict is not possible
 constexpr double kFewestJudgeable = 0.2;  // share of the rows: below it a log is inconclusive
 
@@ -152,9 +152,9 @@ std::string why_inconclusive(const LogFacts& log, double model_period_s) {
         "the log has a sample every {:.4g} s, the model was learned from logs with one every {:.4g} s; learn "
         "a model from healthy logs of this rate",
         log.sample_period_s, model_period_s);
-  if (log.rows_used < kFewestRows)
+  if (log.rows_used < kFewestUsableRows)
     return fmt::format("the log has {} usable rows; at least {} are needed to judge", log.rows_used,
-                       kFewestRows);
+                       kFewestUsableRows);
   if (static_cast<double>(log.judgeable_rows) < kFewestJudgeable * static_cast<double>(log.rows_used))
     return fmt::format("only {} of {} rows {}", log.judgeable_rows, log.rows_used,
                        log.is_tracked ? "could be compared with a reference that moves as in the healthy logs"

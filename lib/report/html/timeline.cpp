@@ -22,7 +22,7 @@ constexpr double kNumberRoom = 2.4;  // that a number takes on a desk, and on a 
 constexpr double kNumberRoomNarrow = 9.0;
 constexpr double kEasyTarget = 9.0;  // narrower faults get more to click at
 constexpr double kNearEnd = 92.0;
-constexpr int kLane = 30, kTop = 6, kFoot = 24;
+constexpr int kLane = 30, kAboveLanes = 6, kFoot = 24;
 
 /// Lane 0 is for faults of no joint.
 class Picture {
@@ -49,7 +49,7 @@ class Picture {
   }
 
  private:
-  int lane_y(int lane) const { return kTop + kLane * (lane - first_lane_); }
+  int lane_y(int lane) const { return kAboveLanes + kLane * (lane - first_lane_); }
   int foot() const { return lane_y(joints_ + 1); }
   double place(double time_s) const { return std::clamp(axis_.px(time_s - zero_s_), 0.0, kWhole); }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kSamples = 480;  // of a curve, about one a pixel
 constexpr double kClose_s = 5.0;       // of the figure that looks closely
-constexpr double kGap = 4.0;           // windows without one break the curve
+constexpr double kGapOfWindows = 4.0;  // windows without one break the curve
 constexpr int kWidth = 420, kHeight = 150;
 
 /// Windows of one log.
@@ -62,7 +62,8 @@ PlotSeries curve(const std::string& name, const JointFit& fit, const Span& span,
   PlotSeries out{.name = name, .x = {}, .y = {}};
   const std::size_t count = span.end - span.begin, group = 2 * ((count + kSamples - 1) / kSamples);
   const auto put = [&](std::size_t k) {
-    if (!out.x.empty() && fit.time_s[k] - out.x.back() > kGap * fit.window_s * static_cast<double>(group)) {
+    if (!out.x.empty() &&
+        fit.time_s[k] - out.x.back() > kGapOfWindows * fit.window_s * static_cast<double>(group)) {
       out.x.push_back(fit.time_s[k]);
       out.y.push_back(std::nan(""));
     }
