@@ -8,11 +8,8 @@
 
 namespace faultline {
 
-struct DecisionOptions {
-  VoteOptions votes{};
-  double thin_confidence = 0.2;  ///< two agreeing networks with a lower mean confidence decide nothing
-  double clear_share = 0.5;      ///< a larger share of the votes settles a disagreement, or gives a warning
-};
+/// A larger share of the votes settles a disagreement of the networks, or gives a warning.
+inline constexpr double kClearShare = 0.5;
 
 /// The reason for a label.
 enum class DecisionReason {
@@ -34,13 +31,13 @@ struct Decision {
 
 /// Returns the label that both networks and the votes of similar cases give an episode: that of networks that
 /// agree, else that of a clear majority of the votes. FaultKind::none if these decide nothing.
-Decision opinion_on(const Episode& episode, const Votes& votes, const DecisionOptions& options = {});
+Decision opinion_on(const Episode& episode, const Votes& votes);
 
 /// Case-based decision on one episode (the paper's "dual classification with robust decision", figure 2, at
 /// the level of the episode). The regression finds the faults that explain the log (DecisionBasis::likeliest
 /// and as_likely). Among these, networks and cases choose (opinion_on()). If they decide nothing, or name a
 /// fault that the log excludes, the label is that of the likeliest fault. If the free form explains the log
 /// much better than every known fault, the fault is unknown.
-Decision decide(const DecisionBasis& basis, const DecisionOptions& options = {});
+Decision decide(const DecisionBasis& basis);
 
 }  // namespace faultline

@@ -48,14 +48,13 @@ std::string reason_in_words(const Decision& decision, const DecisionBasis& basis
   return "";
 }
 
-std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes& votes,
-                                           const DecisionOptions& options) {
+std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes& votes) {
   std::vector<std::string> warnings;
   if (decision.reason == DecisionReason::networks_agree) {
     if (votes.of_cases.empty())
       warnings.push_back("no recorded case resembles this episode");
     else if (const LabelShare& most = votes.of_cases[0];
-             most.label != decision.voted && most.label != decision.label && most.share > options.clear_share)
+             most.label != decision.voted && most.label != decision.label && most.share > kClearShare)
       warnings.push_back(fmt::format("most similar cases{} were {}", if_simulated(votes), words(most.label)));
   }
   for (const Neighbour& n : votes.precedents)

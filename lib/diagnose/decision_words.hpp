@@ -12,7 +12,6 @@ namespace faultline {
 std::string reason_in_words(const Decision& decision, const DecisionBasis& basis);
 
 /// Lists what contradicts the decision among similar cases, a sentence each.
-std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes& votes,
-                                           const DecisionOptions& options = {});
+std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes& votes);
 
 }  // namespace faultline

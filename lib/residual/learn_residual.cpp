@@ -23,6 +23,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kLeastPatterns = 50;  // fewer training patterns do not determine the motion
+/// Time to predict over, s, rounded down to whole rows, at least one: at 1 kHz the velocity changes by more
+/// than its noise, at 13.7 Hz it is one row.
+constexpr double kStep_s = 0.02;
+constexpr int kPredictionsOfRow = 3;  // about so many predictions contain a row
 
 /// Summary of the logs from a first pass.
 struct Survey {
@@ -68,14 +72,12 @@ Survey survey_logs(std::span<LogSource* const> logs, int joints) {
   return survey;
 }
 
-TransitionShape shape_for(const Survey& survey, int joints, double torque_phi,
-                          const ResidualOptions& options) {
-  constexpr double kStep = 0.02, kTolerance = 1e-6;
+TransitionShape shape_for(const Survey& survey, int joints, double torque_phi) {
+  constexpr double kTolerance = 1e-6;  // rows
   TransitionShape shape;
   shape.joints = joints;
-  const double rows = (options.step_s > 0.0 ? options.step_s : kStep) / survey.period_s;
-  shape.step = std::max(1, static_cast<int>(rows + kTolerance));
-  shape.stride = options.stride > 0 ? std::min(options.stride, shape.step) : std::max(1, shape.step / 3);
+  shape.step = std::max(1, static_cast<int>(kStep_s / survey.period_s + kTolerance));
+  shape.stride = std::max(1, shape.step / kPredictionsOfRow);
   shape.step_s = shape.step * survey.period_s;
   shape.torque_phi = torque_phi;
   shape.derive_velocity = !survey.has_velocity;
@@ -172,7 +174,7 @@ LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const
                                          double torque_phi, const ResidualOptions& options,
                                          const Progress& progress) {
   const Survey survey = survey_logs(logs, identified.joints());
-  const TransitionShape shape = shape_for(survey, identified.joints(), torque_phi, options);
+  const TransitionShape shape = shape_for(survey, identified.joints(), torque_phi);
   const Pools pools = draw(logs, shape, block_size(survey, shape), options, progress);
   check_amount(pools);
   const Transitions check = pools.check.drawn();
@@ -180,9 +182,9 @@ LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const
 
   LearnedResidual learned;
   if (options.kind == ResidualKind::mlp && identified.identified && options.twin_share > 0.0)
-    training = joined(training, twin_transitions(training, shape, identified.chain,
-                                                 static_cast<int>(options.twin_share * options.max_patterns),
-                                                 options.twin));
+    training =
+        joined(training, twin_transitions(training, shape, identified.chain,
+                                          static_cast<int>(options.twin_share * options.max_patterns)));
   learned.training_patterns = training.count();
   const Transitions validation = pools.validation.drawn();
   learned.validation_patterns = options.kind == ResidualKind::physics ? 0 : validation.count();

@@ -10,7 +10,6 @@
 #include "lib/log/log_source.hpp"
 #include "lib/neural/training.hpp"
 #include "lib/residual/residual_generator.hpp"
-#include "lib/residual/twin_transitions.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {
@@ -22,18 +21,12 @@ struct ResidualOptions {
   PredictedQuantity target = PredictedQuantity::change;
   ResidualTrainer trainer = ResidualTrainer::levenberg_marquardt;
   std::vector<int> hidden = {49};  ///< units of each hidden layer
-  /// Time to predict over, s; rounded down to whole rows, at least one. 0 = 20 ms: at 1 kHz the velocity
-  /// changes by more than its noise, at 13.7 Hz it is one row.
-  double step_s = 0.0;
-  /// Rows between predictions; 0 = a third of the step, so that each row lies in about three predictions.
-  int stride = 0;
   bool mean_torque = true;  ///< mean torque over the step as further inputs, if it can differ from the first
   int max_patterns = 2000;  ///< trained on, drawn from the logs at random
   /// Patterns made by the identified robot around the logged states, as a share of max_patterns: a few logs
   /// cover few moves, and a faulty robot leaves them. Kind mlp on an identified robot only; 0 = logs alone,
   /// as in the paper.
   double twin_share = 0.5;
-  TwinPatternOptions twin = {};
   int max_iterations = 0;  ///< of the trainer; 0 = 60 (Levenberg-Marquardt) or 1500 epochs (back-propagation)
   double weight_decay = 1e-9;
   std::uint64_t seed = 1;

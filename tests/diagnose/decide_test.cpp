@@ -13,8 +13,8 @@ Episode episode_at(double a, double b, Opinion mlp, Opinion rbfn) {
   return {.features = {a, b, 0.0}, .mlp = mlp, .rbfn = rbfn, .evidence = 30.0};
 }
 
-Decision decided(const Episode& episode, const CaseBase& base, const DecisionOptions& options = {}) {
-  return opinion_on(episode, votes_on(episode, base, options.votes), options);
+Decision decided(const Episode& episode, const CaseBase& base, const VoteOptions& options = {}) {
+  return opinion_on(episode, votes_on(episode, base, options));
 }
 
 std::vector<std::string> warnings(const Episode& episode, const CaseBase& base) {
@@ -116,7 +116,7 @@ TEST(Decide, NetworksThatAgreeButHardlyBelieveItSayNothing) {
 
 TEST(Decide, EvenVotesSettleNothing) {
   const CaseBase base = example_base();
-  const DecisionOptions options{.votes = {.neighbours = 1, .opinion_weight = 1.0}};
+  const VoteOptions options{.neighbours = 1, .opinion_weight = 1.0};
   const Decision decision = decided(episode_at(0, 0, {kBias, 1.0}, {kLocked, 1.0}), base, options);
   EXPECT_EQ(decision.label.kind, FaultKind::none);
   EXPECT_EQ(decision.confidence, 0.0);

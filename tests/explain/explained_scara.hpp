@@ -37,9 +37,7 @@ inline FittedDays learned_from(const std::vector<Log>& days) {
   for (MemorySource& source : sources) logs.push_back(&source);
   Robot robot = preset_robot("RRP");
   robot.chain.length = {1.0, 0.8, 0.0};
-  DayFitOptions options;
-  options.torque_is_held = true;
-  return fit_days(logs, parameter_space(robot), options);
+  return fit_days(logs, parameter_space(robot), TorqueTiming::held);
 }
 
 /// Learned from three healthy days.

@@ -34,7 +34,7 @@ TEST(ExplainedRobot, TheTwinIsTheRobotThatItsRunsAreJudgedBy) {
   identified.estimate = Eigen::VectorXd::Constant(identified.space.count(), 7.0);
   identified.covariance = Eigen::MatrixXd::Identity(identified.space.count(), identified.space.count());
   identified.q_noise = identified.dq_noise = {1.0, 1.0, 1.0};
-  const OneStepModel model = fit_coarse_days(logs, robot, identified.space, {.torque_is_held = true});
+  const OneStepModel model = fit_coarse_days(logs, robot, identified.space, TorqueTiming::held);
   const Identification twin = with_explained_robot(identified, model);
   const ParameterSpace& space = twin.space;
   int at = 0;

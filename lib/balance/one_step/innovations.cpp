@@ -18,7 +18,9 @@ constexpr double kFirstVelocity = 10.0;  // (rad/s)^2 or (m/s)^2: the same of th
 constexpr double kLeastProcess = 1e-13;  // variance added to each state: that of rounding
 
 template <int kStates>
-using Square = Eigen::Matrix<double, kStates, kStates>;
+using Square = SmallMatrix<kStates, kStates>;
+template <int kStates>
+using State = SmallMatrix<kStates, 1>;
 template <int kStates>
 using Wide = Eigen::Matrix<double, kStates, Eigen::Dynamic>;
 
@@ -33,28 +35,29 @@ struct Filter {
 template <int kStates>
 void take_in(int i, double variance, const Eigen::RowVectorXd& reading, Filter<kStates>& filter,
              Innovations& out, int k) {
+  const int states = out.states;
   if (variance > kNoReading) {
     out.variance(i, k) = std::numeric_limits<double>::quiet_NaN();
-    out.white.row(k * kStates + i).setZero();
-    out.gain.col(k * kStates + i).setZero();
+    out.white.row(k * states + i).setZero();
+    out.gain.col(k * states + i).setZero();
     return;
   }
   const double s = filter.covariance(i, i) + variance;
-  const Eigen::Matrix<double, kStates, 1> gain = filter.covariance.col(i) / s;
+  const State<kStates> gain = filter.covariance.col(i) / s;
   const Eigen::RowVectorXd off = reading - filter.state.row(i);
   out.variance(i, k) = s;
-  out.gain.col(k * kStates + i) = gain;
-  out.white.row(k * kStates + i) = off / std::sqrt(s);
+  out.gain.col(k * states + i) = gain;
+  out.white.row(k * states + i) = off / std::sqrt(s);
   for (Eigen::Index c = 0; c < off.size(); ++c) filter.state.col(c) += off[c] * gain;
   filter.covariance -= s * gain * gain.transpose();
 }
 
 template <int kStates>
 void filter_all(const LinearSteps& steps, const FilterInput& in, Innovations& out) {
-  const int columns = out.columns, wide = 1 + columns;
-  Filter<kStates> filter{Square<kStates>::Zero(), Wide<kStates>::Zero(kStates, wide)};
-  filter.covariance.diagonal().template head<kStates / 2>().setConstant(kFirstPosition);
-  filter.covariance.diagonal().template tail<kStates / 2>().setConstant(kFirstVelocity);
+  const int states = out.states, columns = out.columns, wide = 1 + columns;
+  Filter<kStates> filter{Square<kStates>::Zero(states, states), Wide<kStates>::Zero(states, wide)};
+  filter.covariance.diagonal().head(states / 2).setConstant(kFirstPosition);
+  filter.covariance.diagonal().tail(states / 2).setConstant(kFirstVelocity);
   Eigen::RowVectorXd reading = Eigen::RowVectorXd::Zero(wide);
   for (int k = 0; k < out.samples; ++k) {
     if (k > 0) {
@@ -63,38 +66,37 @@ void filter_all(const LinearSteps& steps, const FilterInput& in, Innovations& ou
       filter.state.col(0) += steps.miss.col(k - 1);
       filter.state.rightCols(columns) += in.column.middleCols((k - 1) * columns, columns);
       const Square<kStates> p =
-          a * filter.covariance * a.transpose() + in.process.middleCols((k - 1) * kStates, kStates);
+          a * filter.covariance * a.transpose() + in.process.middleCols((k - 1) * states, states);
       filter.covariance = 0.5 * (p + p.transpose());
     }
     out.before.middleCols(k * wide, wide) = filter.state;
-    out.before_covariance.middleCols(k * kStates, kStates) = filter.covariance;
-    for (int i = 0; i < kStates; ++i) {
+    out.before_covariance.middleCols(k * states, states) = filter.covariance;
+    for (int i = 0; i < states; ++i) {
       reading[0] = in.reading(i, k);
       if (in.read_column >= 0) reading[1 + in.read_column] = -in.read(i, k);
       take_in(i, in.variance(i, k), reading, filter, out, k);
     }
     out.after.middleCols(k * wide, wide) = filter.state;
-    out.after_covariance.middleCols(k * kStates, kStates) = filter.covariance;
+    out.after_covariance.middleCols(k * states, states) = filter.covariance;
   }
 }
 
 template <int kStates>
 Trajectory smooth_all(const LinearSteps& steps, const Innovations& filter, const VectorXd& mix,
                       MatrixXd* variance) {
-  const int samples = filter.samples, wide = 1 + filter.columns;
-  using State = Eigen::Matrix<double, kStates, 1>;
-  Trajectory out(kStates, samples);
-  Square<kStates> p = filter.after_covariance.rightCols(kStates);
+  const int states = filter.states, samples = filter.samples, wide = 1 + filter.columns;
+  Trajectory out(states, samples);
+  Square<kStates> p = filter.after_covariance.rightCols(states);
   out.col(samples - 1) = filter.after.rightCols(wide) * mix;
   if (variance != nullptr) variance->col(samples - 1) = p.diagonal();
   for (int k = samples - 2; k >= 0; --k) {
-    const Square<kStates> after = filter.after_covariance.middleCols(k * kStates, kStates),
+    const Square<kStates> after = filter.after_covariance.middleCols(k * states, states),
                           slope = steps.slope_of(k);
-    Square<kStates> before = filter.before_covariance.middleCols((k + 1) * kStates, kStates);
+    Square<kStates> before = filter.before_covariance.middleCols((k + 1) * states, states);
     before.diagonal().array() += kLeastProcess;
     const Square<kStates> gain = before.ldlt().solve((slope * after).eval()).transpose();
-    const State predicted = filter.before.middleCols((k + 1) * wide, wide) * mix,
-                filtered = filter.after.middleCols(k * wide, wide) * mix, next = out.col(k + 1);
+    const State<kStates> predicted = filter.before.middleCols((k + 1) * wide, wide) * mix,
+                         filtered = filter.after.middleCols(k * wide, wide) * mix, next = out.col(k + 1);
     out.col(k) = filtered + gain * (next - predicted);
     if (variance == nullptr) continue;
     before.diagonal().array() -= kLeastProcess;

@@ -68,30 +68,33 @@ void mean_of(const MotionSlopes& begin, const MotionSlopes& middle, const Motion
 
 template <int kStates>
 void move_tangent(double h, const MotionSlopes& at, Tangent& tangent) {
-  constexpr int n = kStates / 2;
-  using Square = Eigen::Matrix<double, kStates, kStates>;
-  using Half = Eigen::Matrix<double, kStates, n>;
-  using Wide = Eigen::Matrix<double, kStates, kStates + n>;  // by the state, by a torque
+  constexpr int kJoints = kJointsOf<kStates>, kWide = kStates == Eigen::Dynamic ? kStates : 3 * kJoints;
+  using Square = SmallMatrix<kStates, kStates>;
+  using State = SmallMatrix<kStates, 1>;
+  using Wide = SmallMatrix<kStates, kWide>;  // by the state, by a torque
+  const int count = static_cast<int>(tangent.by_state.rows()), joints = count / 2;
+  const auto states = Eigen::fix<kStates>(count);
+  const auto n = Eigen::fix<kJoints>(joints);
   int halvings = 0;  // until the series converges: friction near rest is fast
   for (double size = h * at.by_state.cwiseAbs().maxCoeff(); size > kConverges && halvings < kMostHalvings;
        size *= 0.5)
     ++halvings;
   h = std::ldexp(h, -halvings);
-  const Eigen::Matrix<double, n, kStates> slope = at.by_state;
-  Wide rate, first = Wide::Zero();
-  first.template topRightCorner<n, kStates>().template leftCols<n>().setIdentity();
-  first.template bottomLeftCorner<n, kStates>() = slope;
-  first.template bottomRightCorner<n, n>() = at.inverse;
+  const SmallMatrix<kJoints, kStates> slope = at.by_state;
+  Wide rate(count, 3 * joints), first = Wide::Zero(count, 3 * joints);
+  first.topRightCorner(n, states).leftCols(n).setIdentity();
+  first.bottomLeftCorner(n, states) = slope;
+  first.bottomRightCorner(n, n) = at.inverse;
   Wide sum = first;
   for (const double order : {4.0, 3.0, 2.0}) {
     sum *= h / order;
-    rate.template topRows<n>() = sum.template bottomRows<n>();
-    rate.template bottomRows<n>().noalias() = slope.lazyProduct(sum);
+    rate.topRows(n) = sum.bottomRows(n);
+    rate.bottomRows(n).noalias() = slope.lazyProduct(sum);
     sum = first + rate;
   }
   sum *= h;
-  Square step = Square::Identity() + sum.template leftCols<kStates>();
-  Half by_torque = sum.template rightCols<n>();
+  Square step = Square::Identity(count, count) + sum.leftCols(states);
+  SmallMatrix<kStates, kJoints> by_torque = sum.rightCols(n);
   for (int k = 0; k < halvings; ++k) {
     by_torque += step.lazyProduct(by_torque).eval();
     step = step.lazyProduct(step).eval();
@@ -99,9 +102,9 @@ void move_tangent(double h, const MotionSlopes& at, Tangent& tangent) {
   const Square before = tangent.by_state;
   tangent.by_state = step.lazyProduct(before);
   for (Eigen::Index p = 0; p < tangent.by_number.cols(); ++p) {
-    const Eigen::Matrix<double, kStates, 1> number = tangent.by_number.col(p);
-    Eigen::Matrix<double, kStates, 1> moved = step.lazyProduct(number);
-    for (int j = 0; j < n; ++j)
+    const State number = tangent.by_number.col(p);
+    State moved = step.lazyProduct(number);
+    for (int j = 0; j < joints; ++j)
       if (at.torque(j, p) != 0.0) moved += at.torque(j, p) * by_torque.col(j);
     tangent.by_number.col(p) = moved;
   }

@@ -29,6 +29,7 @@ constexpr double kUnfelt = 1e-9;         // of the squared torques of a link: le
 constexpr double kFrictionWidth = 0.01;  // rad/s or m/s: steep against the speeds of a sample
 constexpr double kFirstDoubt = 0.3;      // process noise over torque rms, halved each round: for a poor start
 constexpr int kDoubtRounds = 7;          // with that process noise: the last one has 0.5 % of the torque rms
+constexpr int kCoarseRounds = 12;        // each a Gauss-Newton step, new smoothed trajectories and new noise
 constexpr int kNoiseFrom = 2;            // round from which measurement noise and day variance are learned
 constexpr double kLeastReading = 1e-5;   // rad, m, rad/s or m/s: rounding of the values in a log
 constexpr double kFree = 100.0;          // SI units: prior standard deviation of a parameter's step
@@ -335,7 +336,7 @@ ParameterSpace with_settled_lengths(const Robot& robot, ParameterSpace space, co
 }  // namespace
 
 OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& robot,
-                             const ParameterSpace& space, const CoarseFitOptions& options) {
+                             const ParameterSpace& space, TorqueTiming torque_between_samples) {
   const std::vector<UniformLog> logs = uniform_logs(sources);
   OneStepModel m;
   RigidColumns rigid{space.chain, space.lift};
@@ -343,7 +344,7 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
   rigid.lift = space.lift(Eigen::all, kept).eval();
   m.body = MotionBody(std::move(rigid), VectorXd::Constant(space.joints(), kFrictionWidth));
   m.setting.period_s = logs.front().period_s;
-  m.setting.torque_is_held = options.torque_is_held;
+  m.setting.torque_is_held = torque_between_samples == TorqueTiming::held;
   set_healthy_motion(logs, m);
   m.reading_variance = first_reading_variance(logs);
   m.theta = coarse_start(logs, m, parameters_of(space, robot.chain, 0.0)(kept), robot.chain.friction);
@@ -357,7 +358,7 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
     samples += log.rows();
   }
   MatrixXd covariance;
-  for (int it = 0; it < options.rounds; ++it) {
+  for (int it = 0; it < kCoarseRounds; ++it) {
     const double doubt = it < kDoubtRounds ? kFirstDoubt * std::ldexp(1.0, -it) : 0.0;
     std::vector<DayBlock> blocks;
     VectorXd square = VectorXd::Zero(2 * at.joints);

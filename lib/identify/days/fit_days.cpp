@@ -26,6 +26,8 @@ constexpr double kHighRate_s = 0.005, kKernelAtHighRate_s = 0.012, kKernel_s = 0
 constexpr double kFinest_s = 0.002;   // between samples: the kernels cannot resolve finer ones
 constexpr double kSlackOfRate = 0.1;  // samples: a period is known to some per cent
 constexpr double kRowKernels = 2.0;   // kernels between two rows: finer rows repeat each other
+constexpr int kFilterOrder = 3;       // of the autoregression of the rows
+constexpr int kFitRounds = 10;        // each fits parameters, days and noise in turn
 // Rounds of the fit from which another term is tried: later terms need the earlier ones.
 constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRotorsFrom = 5, kRowsUntil = 6;
 constexpr int kWidthsAt[] = {3, 6};  // rounds that refine the friction widths
@@ -92,20 +94,20 @@ BalanceModel with_healthy_motion(const std::vector<HealthyDay>& days, BalanceMod
 
 /// Returns rows, setting and a first fit of the rigid robot.
 DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& space,
-                     const DayFitOptions& options) {
+                     TorqueTiming torque_between_samples) {
+  const bool is_held = torque_between_samples == TorqueTiming::held;
   std::vector<UniformLog> uniform = uniform_logs(logs);
   const bool without_velocity = hold_no_velocity(uniform);
   const int samples = samples_averaged(uniform.front().period_s);
-  for (UniformLog& log : uniform) log = averaged(std::move(log), samples, options.torque_is_held);
+  for (UniformLog& log : uniform) log = averaged(std::move(log), samples, is_held);
   DayDraft draft;
   BalanceModel& m = draft.model;
   m.rigid = {space.chain, space.lift};
   m.payload = payload_columns(space);
-  const double usual = uniform.front().period_s < kHighRate_s ? kKernelAtHighRate_s : kKernel_s;
-  const double kernel = options.kernel_s > 0.0 ? options.kernel_s : usual;
-  m.setting = draft_setting(uniform, kernel, options.row_s > 0.0 ? options.row_s : kRowKernels * kernel);
+  const double kernel = uniform.front().period_s < kHighRate_s ? kKernelAtHighRate_s : kKernel_s;
+  m.setting = draft_setting(uniform, kernel, kRowKernels * kernel);
   m.setting.velocity_is_difference = without_velocity;
-  m.setting.torque_is_held = options.torque_is_held;
+  m.setting.torque_is_held = is_held;
   m.setting.averaged = samples;
   for (const UniformLog& log : uniform) draft.days.push_back({.log = log});
   m = with_healthy_motion(draft.days, std::move(m));
@@ -119,15 +121,15 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   draft.used = rigid_columns_used(m.rigid, m.layout());
   draft.refused.assign(draft.used.size(), false);
   m.theta = plain_fit(rows, m.layout(), draft.used, m.torque_rms);
-  for (int j = 0; j < m.joints() && options.springs; ++j)
+  for (int j = 0; j < m.joints(); ++j)
     draft.used[m.layout().spring(j)] = m.rigid.chain.geometry[j].kind == AxisKind::revolute;
   return draft;
 }
 
 /// Returns the draft with the nonlinear terms that this round may try, and with matching rows.
-DayDraft with_terms_of_round(DayDraft draft, int round, const DayFitOptions& options) {
+DayDraft with_terms_of_round(DayDraft draft, int round) {
   if (round == kWidthsAt[0] || round == kWidthsAt[1]) draft = with_refined_widths(std::move(draft));
-  if (round == kRipplesAt && options.ripples) draft = with_ripples(std::move(draft));
+  if (round == kRipplesAt) draft = with_ripples(std::move(draft));
   if (round == kSpringsFrom) draft = with_chosen_springs(std::move(draft));
   if (round >= kSpringsFrom) draft.model = with_compliance(std::move(draft.model));
   draft = with_rotors(std::move(draft), round >= kRotorsFrom);
@@ -298,14 +300,14 @@ Eigen::VectorXd prior_of_a_day(const BalanceModel& model, const Eigen::VectorXd&
 }  // namespace
 
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
-                    const DayFitOptions& options) {
-  DayDraft draft = first_draft(logs, space, options);
+                    TorqueTiming torque_between_samples) {
+  DayDraft draft = first_draft(logs, space, torque_between_samples);
   Eigen::VectorXd between = first_day_variance(draft.model);
-  for (int round = 0; round < options.rounds; ++round) {
-    draft = with_terms_of_round(std::move(draft), round, options);
-    if (round == 0 && options.pieces) draft = with_first_piece(std::move(draft));
+  for (int round = 0; round < kFitRounds; ++round) {
+    draft = with_terms_of_round(std::move(draft), round);
+    if (round == 0) draft = with_first_piece(std::move(draft));
     draft = with_piece_paths(std::move(draft), round < kFinePathsFrom);
-    draft = with_noise(std::move(draft), options.filter_order);
+    draft = with_noise(std::move(draft), kFilterOrder);
     MixedEffects fit = fit_mixed_effects(std::move(draft), between);
     draft = std::move(fit.draft);
     between = variance_between_days(draft.model, fit.moments);

@@ -11,15 +11,6 @@
 
 namespace faultline {
 
-struct DayFitOptions {
-  double kernel_s = 0.0;  ///< 0: 12 ms above 200 Hz, else 16 ms
-  double row_s = 0.0;     ///< between two rows; 0: twice the kernel, since finer rows repeat each other
-  int filter_order = 3;   ///< of the autoregression of the rows
-  int rounds = 10;        ///< each fits parameters, days and noise in turn
-  bool torque_is_held = false;
-  bool springs = true, ripples = true, pieces = true;
-};
-
 /// Times at which a work piece was carried in a log.
 struct PieceTimes {
   Eigen::VectorXd time_s;  ///< of the rows
@@ -38,6 +29,6 @@ struct FittedDays {
 /// two, of one rate): a regression with mixed effects, in which the parameters of the robot are free and the
 /// effects of each day random (Laird and Ware 1982). `space` gives base parameters and lengths.
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
-                    const DayFitOptions& options = {});
+                    TorqueTiming torque_between_samples);
 
 }  // namespace faultline

@@ -39,8 +39,6 @@ IdentifyOptions identify_options() {
   return options;
 }
 
-bool is_held(const Robot& robot) { return robot.log.torque_between_samples == TorqueTiming::held; }
-
 }  // namespace
 
 HealthyLogs healthy_logs(const Experiment& experiment, double duration_s, double sigma) {
@@ -82,8 +80,7 @@ Identification identify_robot(const HealthyLogs& healthy) {
 OneStepModel known_steps(const Robot& robot, const HealthyLogs& healthy) {
   const Sources sources(healthy);
   const ParameterSpace space = parameter_space(robot);
-  OneStepModel steps =
-      fit_coarse_days(sources.all(), robot, space, {.torque_is_held = is_held(healthy.robot)});
+  OneStepModel steps = fit_coarse_days(sources.all(), robot, space, healthy.robot.log.torque_between_samples);
   const Eigen::VectorXd truth = parameters_of(space, robot.chain, 0.0);
   Eigen::VectorXd width(space.joints());
   int at = 0;

@@ -42,7 +42,7 @@ const ExplainModel& learned() {
       sources.emplace_back(day_log(friction, sources.size() + 1), "day");
     for (MemorySource& source : sources) logs.push_back(&source);
     const Robot robot = robot_from_toml("axes = \"RRP\"\n[known]\nl1 = 1.0\nl2 = 0.8\n", "robot");
-    return ExplainModel{fit_coarse_days(logs, robot, parameter_space(robot), {.torque_is_held = true}),
+    return ExplainModel{fit_coarse_days(logs, robot, parameter_space(robot), TorqueTiming::held),
                         evidence_limits({})};
   }();
   return model;

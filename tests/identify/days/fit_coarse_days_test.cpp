@@ -32,7 +32,7 @@ OneStepModel fitted(const std::vector<double>& friction) {
   std::vector<LogSource*> logs;
   for (MemorySource& source : sources) logs.push_back(&source);
   const Robot robot = robot_from_toml("axes = \"RRP\"\n[known]\nl1 = 1.0\nl2 = 0.8\n", "robot");
-  return fit_coarse_days(logs, robot, parameter_space(robot), {.torque_is_held = true});
+  return fit_coarse_days(logs, robot, parameter_space(robot), TorqueTiming::held);
 }
 
 TEST(FitCoarseDays, FrictionThatDiffersByDayIsNoNoiseOfTheReadings) {
@@ -66,7 +66,7 @@ TEST(FitCoarseDays, MuchNoiseDoesNotHideTheIdentifiedRobot) {
   for (MemorySource& source : sources) logs.push_back(&source);
   Robot robot = robot_from_toml("axes = \"RRP\"\n[known]\nl1 = 1.0\nl2 = 0.8\n", "robot");
   robot = with_masses_and_lengths(robot, {1.1, 0.7, 0.55}, {1.0, 0.8, 0.0});  // as identified: some 10 % off
-  const OneStepModel model = fit_coarse_days(logs, robot, parameter_space(robot), {.torque_is_held = true});
+  const OneStepModel model = fit_coarse_days(logs, robot, parameter_space(robot), TorqueTiming::held);
   EXPECT_NEAR(model.theta[0] / truth.a(), 1.0, 0.03);
   EXPECT_NEAR(model.theta[1] / truth.b(), 1.0, 0.03);
   EXPECT_NEAR(model.theta[3] / truth.m3, 1.0, 0.01);

@@ -77,7 +77,7 @@ BalanceModel fitted(const Joint& joint, double period_s) {
   std::vector<LogSource*> logs;
   for (MemorySource& source : sources) logs.push_back(&source);
   const Robot robot = robot_from_toml("axes = \"R\"\ngravity = [0, 0, -9.81]\n", "robot");
-  return fit_days(logs, parameter_space(robot), {.torque_is_held = true}).model;
+  return fit_days(logs, parameter_space(robot), TorqueTiming::held).model;
 }
 
 TEST(FitDays, ALightRigidJointThatReversesHasNoSpring) {
