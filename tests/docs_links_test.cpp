@@ -116,6 +116,45 @@ TEST(DocumentationLinks, EveryAnchorIsAHeadingOfItsPage) {
   EXPECT_GT(checked, 10);
 }
 
+/// Pages that the program writes.
+bool is_generated(const fs::path& page) {
+  return page == kRoot / "docs/paper.md" || page.parent_path() == kRoot / "docs/reference/commands";
+}
+
+/// Number of characters of a text in UTF-8.
+std::ptrdiff_t characters(const std::string& text) {
+  return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
+}
+
+/// Lines of prose of more than 125 characters; rows of tables, pictures, links and HTML cannot be broken.
+std::vector<std::string> long_lines_of(const fs::path& page) {
+  constexpr std::ptrdiff_t kLongest = 125;
+  std::vector<std::string> found;
+  for (const std::string& line : prose_of(read_file(page.string()))) {
+    const std::size_t begin = line.find_first_not_of(' ');
+    if (begin == std::string::npos || std::string("|<[!").find(line[begin]) != std::string::npos) continue;
+    if (characters(line) > kLongest) found.push_back(line);
+  }
+  return found;
+}
+
+TEST(DocumentationLinks, LinesOfProseAreShort) {
+  for (const fs::path& page : pages()) {
+    if (is_generated(page)) continue;
+    for (const std::string& line : long_lines_of(page)) ADD_FAILURE() << page << ": " << line;
+  }
+}
+
+TEST(DocumentationLinks, ALongLineOfProseWouldBeSeen) {
+  const TemporaryFolder folder;
+  const std::string words(126, 'x'), umlauts = "\u00e4";
+  std::string wide;
+  for (int i = 0; i < 125; ++i) wide += umlauts;
+  const fs::path page =
+      folder.write("page.md", words + "\n\n| " + words + " |\n\n    " + words + "\n\n" + wide + "\n");
+  EXPECT_EQ(long_lines_of(page), std::vector<std::string>{words});
+}
+
 TEST(DocumentationLinks, ABrokenAnchorWouldBeSeen) {
   const TemporaryFolder folder;
   const fs::path page = folder.write("page.md",
