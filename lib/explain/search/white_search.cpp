@@ -38,28 +38,35 @@ OnsetEquations onset_equations(const WhiteSearch& s, const StackedColumns& colum
   return out;
 }
 
-OnsetEquations over_length(const OnsetEquations& all, int length) {
-  OnsetEquations out{{}, {}, over_rows(all.vector, length)};
-  for (const MatrixXd& sums : all.square) out.square.push_back(over_rows(sums, length));
-  for (const MatrixXd& sums : all.cross) out.cross.push_back(over_rows(sums, length));
+/// Returns the products of two columns' sums with the effects over `length` rows from each row on (0: to the
+/// end), summed over the effects. `a` and `b` are the sums to the end, effects x onsets.
+ArrayXd effect_products(const MatrixXd& a, const MatrixXd& b, int length) {
+  const Eigen::Index ended = length > 0 ? std::max<Eigen::Index>(a.cols() - length, 0) : 0;
+  ArrayXd out(a.cols());
+  for (Eigen::Index t = 0; t < ended; ++t)
+    out[t] = (a.col(t) - a.col(t + length)).dot(b.col(t) - b.col(t + length));
+  for (Eigen::Index t = ended; t < a.cols(); ++t) out[t] = a.col(t).dot(b.col(t));
   return out;
 }
 
-/// Returns the evidence for columns from each onset on, in nats, with their sizes and the effects integrated
-/// out: by a Cholesky factor of the normal equations of all onsets at once.
-VectorXd gains_of(const OnsetEquations& equations, const VectorXd& variance) {
+/// Returns the evidence for columns over `length` rows from each onset on (0: to the end), in nats, with
+/// their sizes and the effects integrated out: by a Cholesky factor of the normal equations of all onsets at
+/// once.
+VectorXd gains_of(const OnsetEquations& equations, const VectorXd& variance, int length) {
   const Eigen::Index sizes = variance.size(), onsets = equations.vector.cols();
+  const MatrixXd vector = over_rows(equations.vector, length);
   std::vector<std::vector<ArrayXd>> factor(sizes);  // row, column, onset
   std::vector<ArrayXd> solved;
   ArrayXd gain = ArrayXd::Zero(onsets);
   for (Eigen::Index a = 0; a < sizes; ++a) {
+    const MatrixXd square = over_rows(equations.square[a], length);
     for (Eigen::Index b = 0; b <= a; ++b) {
-      ArrayXd left = equations.square[a].row(b).array();
-      left -= (equations.cross[a].array() * equations.cross[b].array()).colwise().sum().transpose();
+      ArrayXd left = square.row(b).array();
+      left -= effect_products(equations.cross[a], equations.cross[b], length);
       for (Eigen::Index k = 0; k < b; ++k) left -= factor[a][k] * factor[b][k];
       factor[a].push_back(b == a ? ArrayXd((left + 1.0 / variance[a]).sqrt()) : ArrayXd(left / factor[b][b]));
     }
-    ArrayXd right = equations.vector.row(a).array();
+    ArrayXd right = vector.row(a).array();
     for (Eigen::Index k = 0; k < a; ++k) right -= factor[a][k] * solved[k];
     solved.push_back(right / factor[a][a]);
     gain += 0.5 * solved[a].square() - factor[a][a].unaryExpr(&elementary::log) -
@@ -114,12 +121,15 @@ VectorXd sums_from_each_row(const WhiteSearch& s, const Ref<const Stacked>& colu
 
 MatrixXd effect_sums_from_each_row(const WhiteSearch& s, const Ref<const Stacked>& column) {
   const int rows = s.fit.count();
+  std::vector<int> reached;  // joints at which the column is not zero
+  for (int j = 0; j < s.fit.joints(); ++j)
+    if (!column.segment(j * rows, rows).isZero(0.0)) reached.push_back(j);
   MatrixXd out = MatrixXd::Zero(s.effects.front().rows(), rows);
-  for (int j = 0; j < s.fit.joints(); ++j) {
-    const VectorXd weighted = s.weight.segment(j * rows, rows).cwiseProduct(column.segment(j * rows, rows));
-    if (!weighted.isZero(0.0)) out += s.effects[j] * weighted.asDiagonal();
+  for (int t = rows; t-- > 0;) {
+    for (const int j : reached)
+      out.col(t) += s.effects[j].col(t) * (s.weight[j * rows + t] * column[j * rows + t]);
+    if (t + 1 < rows) out.col(t) += out.col(t + 1);
   }
-  for (int t = rows - 1; t-- > 0;) out.col(t) += out.col(t + 1);
   return out;
 }
 
@@ -134,7 +144,7 @@ std::vector<VectorXd> onset_gains(const WhiteSearch& s, const FaultColumns& colu
                                   const std::vector<int>& lengths) {
   const OnsetEquations equations = onset_equations(s, columns.column);
   std::vector<VectorXd> out;
-  for (const int length : lengths) out.push_back(gains_of(over_length(equations, length), columns.variance));
+  for (const int length : lengths) out.push_back(gains_of(equations, columns.variance, length));
   return out;
 }
 
