@@ -19,6 +19,7 @@
 #include "lib/core/make_issue.hpp"
 #include "lib/identify/fit_alike.hpp"
 #include "lib/identify/physical.hpp"
+#include "lib/identify/shooting_stage.hpp"
 #include "lib/identify/verdict/inertia_verdict.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -29,7 +30,7 @@ constexpr double kContradicts = 5.0;   // standard errors beyond which facts con
 constexpr int kMostRounds = 3;         // fits, each at the lengths that the previous fit found
 constexpr double kOtherGuess = 0.05;   // relative change of a guessed length that needs another fit
 constexpr double kSameRate = 0.02;     // relative, between the sample periods of two logs
-constexpr double kOtherLength = 1e-3;  // relative change of a length: less changes no torque measurably
+constexpr double kOtherLength = 3e-3;  // relative change of a length: less changes no torque measurably
 
 /// Whether the same base parameters give other torques at other lengths.
 bool depends_on_lengths(const ParameterSpace& a, const ParameterSpace& b) {
@@ -196,6 +197,26 @@ Round fit_groups(const std::vector<PayloadGroup>& groups, std::size_t logs, cons
   return {std::move(id), std::move(sized.lengths)};
 }
 
+/// Whether lengths that the robot file does not state change the torques of given base parameters.
+bool needs_lengths(const Robot& robot) {
+  Robot longer = robot;
+  for (std::size_t i = 0; i < longer.chain.length.size(); ++i)
+    if (!robot.known.contains(fmt::format("l{}", i + 1))) longer.chain.length[i] *= 1.0 + kOtherGuess;
+  const ParameterSpace given = parameter_space(robot), other = parameter_space(longer);
+  return given.base.size() != other.base.size() || depends_on_lengths(given, other);
+}
+
+/// Returns the lengths at which to fit first: those of the robot file, or, where torques depend on lengths
+/// that it does not state, those that the torque balance finds. The motion is fitted at these alone.
+std::vector<double> first_lengths(const std::vector<PayloadGroup>& groups, std::size_t logs,
+                                  const Robot& robot, const IdentifyOptions& options) {
+  if (options.method == IdentifyMethod::weak_form || !needs_lengths(robot)) return robot.chain.length;
+  IdentifyOptions balance = options;
+  balance.method = IdentifyMethod::weak_form;
+  const Round round = fit_groups(groups, logs, robot, balance, {});
+  return has_fast_log(round.id) ? round.lengths.value_or(robot.chain.length) : robot.chain.length;
+}
+
 /// Keeps messages of the solver's library about singular systems off the terminal, since the result reports
 /// them. Errors that end the program are still written. May be called any number of times.
 void quiet_solver() {
@@ -229,8 +250,9 @@ Identification identify(std::span<LogSource* const> logs, const Robot& robot, co
   quiet_solver();
   std::vector<PayloadGroup> groups = group_by_payload(logs, robot);
   if (groups.empty()) groups.emplace_back();
-  Round round = fit_groups(groups, logs.size(), robot, options, progress);
   Robot sized = robot;
+  sized.chain.length = first_lengths(groups, logs.size(), robot, options);
+  Round round = fit_groups(groups, logs.size(), sized, options, progress);
   for (int k = 1; k < kMostRounds && round.lengths; ++k) {
     sized.chain.length = *round.lengths;
     round = fit_groups(groups, logs.size(), sized, options, progress);

@@ -19,7 +19,10 @@ namespace {
 
 constexpr double kShootingSettled = 0.03;  ///< relative change of a noise level below which rounds end
 
-constexpr double kFreeBlocks = 0.5;  // of the blocks: least number that counts as degrees of freedom
+constexpr double kConverged = 1e-7;   // relative decrease of the cost that ends the last solve: a step that
+                                      // lowers it by less moves no parameter by a tenth of its std
+constexpr double kGoodEnough = 1e-5;  // the same in rounds before, whose weights are not final
+constexpr double kFreeBlocks = 0.5;   // of the blocks: least number that counts as degrees of freedom
 constexpr double kWhite =
     1.5;  // mean ratio of the sandwich's variances to the white ones: below, it is chance
 
@@ -103,7 +106,7 @@ ceres::Solver::Summary solve(ceres::Problem& problem, ShootingEvaluation& evalua
     options.linear_solver_ordering->AddElementToGroup(evaluation.state(i), 0);
   options.linear_solver_ordering->AddElementToGroup(evaluation.values(), 1);
   options.max_num_iterations = max_iterations;
-  options.function_tolerance = last ? 1e-9 : 1e-5;
+  options.function_tolerance = last ? kConverged : kGoodEnough;
   options.parameter_tolerance = 1e-10;
   options.gradient_tolerance = 1e-12;
   options.initial_trust_region_radius = 1e6;
