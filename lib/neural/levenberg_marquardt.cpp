@@ -38,6 +38,8 @@ TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const 
   TrainingMonitor watch(start,
                         {training, validation, options.stop, progress, "Levenberg-Marquardt training"});
   Mlp mlp = std::move(start);
+  const bool projected = has_projected_outputs(mlp);
+  if (projected) mlp.layers.back() = fitted_outputs(mlp, training, options.weight_decay);
   VectorXd weights = parameters_of(mlp);
   LossGradient now = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);
   Damping damping;
@@ -56,11 +58,12 @@ TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const 
         continue;
       }
       set_parameters(mlp, weights + *step);
+      if (projected) mlp.layers.back() = fitted_outputs(mlp, training, options.weight_decay);
       LossGradient next = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);
       const double promised = 0.5 * step->dot(damping.value * *step - now.gradient);
       if (next.loss < now.loss) {
         damping.accept((now.loss - next.loss) / promised);
-        weights += *step;
+        weights = parameters_of(mlp);
         now = std::move(next);
         break;
       }

@@ -17,6 +17,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using LowerCholesky = Eigen::LLT<MatrixXd, Eigen::Lower>;
 
 /// Patterns processed at once, which bounds the memory.
 constexpr Index kChunk = 512;
@@ -81,90 +82,58 @@ void add_weight_decay(MatrixXd& normal, const Mlp& mlp, double weight_decay) {
   }
 }
 
+/// Values of the hidden units, with a last row of ones for the bias of the outputs.
+MatrixXd hidden_units(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
+  const Index hidden = mlp.layers[1].weights.cols();
+  MatrixXd units(hidden + 1, inputs.cols());
+  units.topRows(hidden) = forward({{mlp.layers[0]}, OutputKind::linear}, inputs);
+  for (Index n = 0; n < units.cols(); ++n)
+    for (Index k = 0; k < hidden; ++k) units(k, n) = elementary::tanh(units(k, n));
+  units.row(hidden).setOnes();
+  return units;
+}
+
+/// Factor of the normal matrix of an output's weights and bias. A ridge far below the matrix's own size keeps
+/// it definite if hidden units are copies of each other.
+LowerCholesky output_factor(MatrixXd own, double weight_decay) {
+  constexpr double kRidge = 1e-13;  // share of the trace
+  own.diagonal().array() += kRidge * own.trace();
+  own.diagonal().head(own.rows() - 1).array() += weight_decay;
+  return LowerCholesky(own);
+}
+
 /// With z_(i,k) = (1 - h_k^2) x_i and x, h extended by 1 for the biases, J has W2(o,k) z_(i,k) for the first
-/// layer and h_k for output o's own weights, so one Gram matrix of [z; h] serves all outputs.
-TwoLayerBlocks two_layer_blocks(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
+/// layer and h_k for output o's own weights, so one Gram matrix of [z; h] serves all outputs: its blocks are
+/// G, C and H H^T. Returns the matrix of the hidden layer with the outputs eliminated,
+/// (G - C^T (H H^T)^-1 C) times W2^T W2 by hidden units, plus the weight decay.
+MatrixXd hidden_layer_matrix(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs, double weight_decay) {
   const Index hidden = mlp.layers[1].weights.cols(), ins = inputs.rows() + 1, first = hidden * ins;
   const Index padded = (first + hidden + kGramPanel) / kGramPanel * kGramPanel;
   MatrixXd gram = MatrixXd::Zero(padded, padded);
-  Mlp front{{mlp.layers[0]}, OutputKind::linear};
   for (Index at = 0; at < inputs.cols(); at += kChunk) {
     const Index count = std::min(kChunk, inputs.cols() - at);
-    MatrixXd h = forward(front, inputs.middleCols(at, count));
+    const MatrixXd h = hidden_units(mlp, inputs.middleCols(at, count));
     MatrixXd features = MatrixXd::Zero(padded, count);
     for (Index n = 0; n < count; ++n) {
-      for (Index k = 0; k < hidden; ++k) h(k, n) = elementary::tanh(h(k, n));
-      const VectorXd slope = (1.0 - h.col(n).array().square()).matrix();
+      const VectorXd slope = (1.0 - h.col(n).head(hidden).array().square()).matrix();
       for (Index i = 0; i + 1 < ins; ++i)
         features.col(n).segment(i * hidden, hidden) = slope * inputs(i, at + n);
       features.col(n).segment(first - hidden, hidden) = slope;
-      features.col(n).segment(first, hidden) = h.col(n);
-      features(first + hidden, n) = 1.0;
+      features.col(n).segment(first, hidden + 1) = h.col(n);
     }
     add_gram(features, gram);
   }
   gram /= static_cast<double>(inputs.cols());
-  return {gram.topLeftCorner(first, first), gram.block(first, 0, hidden + 1, first),
-          gram.block(first, first, hidden + 1, hidden + 1), mlp.layers[1].weights};
-}
-
-/// Multiplies the columns of the coupling, or a vector of the first layer, by the weights of output `o`.
-VectorXd weighted(const TwoLayerBlocks& blocks, Index o, const VectorXd& front) {
-  const Index hidden = blocks.mix.cols();
-  VectorXd out(front.size());
-  for (Index at = 0; at < front.size(); at += hidden)
-    out.segment(at, hidden) = front.segment(at, hidden).cwiseProduct(blocks.mix.row(o).transpose());
-  return out;
-}
-
-/// The matrix of the first layer without that of the outputs: (G - C^T own^-1 C) * (W2^T W2) by hidden units.
-MatrixXd front_alone(const TwoLayerBlocks& blocks, const MatrixXd& root_coupling) {
-  const Index hidden = blocks.mix.cols();
-  const MatrixXd mix = blocks.mix.transpose() * blocks.mix;
-  MatrixXd out = blocks.front;
+  MatrixXd out = gram.topLeftCorner(first, first);
+  const LowerCholesky own = output_factor(gram.block(first, first, hidden + 1, hidden + 1), weight_decay);
+  const MatrixXd root_coupling = own.matrixL().solve(gram.block(first, 0, hidden + 1, first));
   out.selfadjointView<Eigen::Lower>().rankUpdate(root_coupling.transpose(), -1.0);
-  for (Index column = 0; column < out.cols(); column += hidden)
-    for (Index row = column; row < out.rows(); row += hidden)
+  const MatrixXd mix = mlp.layers[1].weights.transpose() * mlp.layers[1].weights;
+  for (Index column = 0; column < first; column += hidden)
+    for (Index row = column; row < first; row += hidden)
       out.block(row, column, hidden, hidden).array() *= mix.array();
+  out.diagonal().head(first - hidden).array() += weight_decay;
   return out;
-}
-
-using LowerCholesky = Eigen::LLT<MatrixXd, Eigen::Lower>;
-
-std::optional<VectorXd> solved(const MatrixXd& matrix, const VectorXd& gradient, double damping) {
-  MatrixXd damped = matrix;
-  damped.diagonal().array() += damping;
-  const LowerCholesky factor(damped);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  VectorXd step = factor.solve(-gradient);
-  return step.allFinite() ? std::optional(std::move(step)) : std::nullopt;
-}
-
-/// Eliminates the weights of the outputs, each of which has the same block, and solves for the first layer.
-std::optional<VectorXd> solved(const TwoLayerBlocks& blocks, double weight_decay, const VectorXd& gradient,
-                               double damping) {
-  const Index hidden = blocks.mix.cols(), outputs = blocks.mix.rows(), first = blocks.front.rows();
-  MatrixXd own = blocks.own;
-  own.diagonal().array() += damping;
-  own.diagonal().head(hidden).array() += weight_decay;
-  const LowerCholesky factor(own);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  const Eigen::Map<const MatrixXd> tail(gradient.data() + first, outputs, hidden + 1);
-  const MatrixXd solved_tail = factor.solve(tail.transpose());  // hidden units and 1 x outputs
-  MatrixXd front = front_alone(blocks, factor.matrixL().solve(blocks.coupling));
-  front.diagonal().head(first - hidden).array() += weight_decay;
-  VectorXd head = gradient.head(first);
-  for (Index o = 0; o < outputs; ++o)
-    head -= weighted(blocks, o, blocks.coupling.transpose() * solved_tail.col(o));
-  const std::optional<VectorXd> first_layer = solved(front, head, damping);
-  if (!first_layer) return std::nullopt;
-  VectorXd step(gradient.size());
-  step.head(first) = *first_layer;
-  Eigen::Map<MatrixXd> out(step.data() + first, outputs, hidden + 1);
-  for (Index o = 0; o < outputs; ++o)
-    out.row(o) = -solved_tail.col(o).transpose() -
-                 factor.solve(blocks.coupling * weighted(blocks, o, *first_layer)).transpose();
-  return step.allFinite() ? std::optional(std::move(step)) : std::nullopt;
 }
 
 }  // namespace
@@ -180,33 +149,37 @@ MatrixXd gauss_newton_matrix(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& i
   return normal / static_cast<double>(inputs.cols());
 }
 
-GaussNewtonSystem::GaussNewtonSystem(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs,
-                                     double weight_decay)
-    : weight_decay_(weight_decay) {
-  if (mlp.layers.size() == 2 && mlp.output == OutputKind::linear) {
-    matrix_ = two_layer_blocks(mlp, inputs);
-    return;
-  }
-  MatrixXd matrix = gauss_newton_matrix(mlp, inputs);
-  add_weight_decay(matrix, mlp, weight_decay);
-  matrix_ = std::move(matrix);
+bool has_projected_outputs(const Mlp& mlp) {
+  return mlp.layers.size() == 2 && mlp.output == OutputKind::linear;
 }
 
-double GaussNewtonSystem::mean_diagonal() const {
-  if (const auto* matrix = std::get_if<MatrixXd>(&matrix_)) return matrix->diagonal().mean();
-  const auto& blocks = std::get<TwoLayerBlocks>(matrix_);
-  const Index hidden = blocks.mix.cols(), outputs = blocks.mix.rows(), first = blocks.front.rows(),
-              own = outputs * (hidden + 1);
-  const VectorXd power = blocks.mix.colwise().squaredNorm().transpose();
-  double sum = static_cast<double>(outputs) * blocks.own.trace() +
-               weight_decay_ * static_cast<double>(first - hidden + outputs * hidden);
-  for (Index at = 0; at < first; at += hidden) sum += blocks.front.diagonal().segment(at, hidden).dot(power);
-  return sum / static_cast<double>(first + own);
+MlpLayer fitted_outputs(const Mlp& mlp, const Patterns& patterns, double weight_decay) {
+  const Index hidden = mlp.layers[1].weights.cols();
+  const double count = static_cast<double>(patterns.inputs.cols());
+  const MatrixXd units = hidden_units(mlp, patterns.inputs);
+  const LowerCholesky factor = output_factor(units * units.transpose() / count, weight_decay);
+  const MatrixXd weights = factor.solve(units * patterns.targets.transpose() / count);
+  return {weights.topRows(hidden).transpose(), weights.row(hidden).transpose()};
+}
+
+GaussNewtonSystem::GaussNewtonSystem(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs,
+                                     double weight_decay) {
+  if (has_projected_outputs(mlp)) {
+    matrix_ = hidden_layer_matrix(mlp, inputs, weight_decay);
+    return;
+  }
+  matrix_ = gauss_newton_matrix(mlp, inputs);
+  add_weight_decay(matrix_, mlp, weight_decay);
 }
 
 std::optional<VectorXd> GaussNewtonSystem::step(const VectorXd& gradient, double damping) const {
-  if (const auto* matrix = std::get_if<MatrixXd>(&matrix_)) return solved(*matrix, gradient, damping);
-  return solved(std::get<TwoLayerBlocks>(matrix_), weight_decay_, gradient, damping);
+  MatrixXd damped = matrix_;
+  damped.diagonal().array() += damping;
+  const LowerCholesky factor(damped);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  VectorXd step = VectorXd::Zero(gradient.size());
+  step.head(damped.rows()) = factor.solve(-gradient.head(damped.rows()));
+  return step.allFinite() ? std::optional(std::move(step)) : std::nullopt;
 }
 
 }  // namespace faultline

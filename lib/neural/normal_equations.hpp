@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <variant>
 
 #include "lib/neural/mlp.hpp"
+#include "lib/neural/patterns.hpp"
 
 namespace faultline {
 
@@ -15,28 +15,30 @@ namespace faultline {
 /// any network.
 Eigen::MatrixXd gauss_newton_matrix(const Mlp& mlp, const Eigen::Ref<const Eigen::MatrixXd>& inputs);
 
-/// Blocks of the Gauss-Newton matrix of a network with one hidden layer and linear outputs (docs/neural.md).
-struct TwoLayerBlocks {
-  Eigen::MatrixXd front;     ///< G, of the first layer's weights and biases; lower triangle
-  Eigen::MatrixXd coupling;  ///< C, hidden units and 1 x weights and biases of the first layer
-  Eigen::MatrixXd own;       ///< of the weights and the bias of one output, the same for each; lower triangle
-  Eigen::MatrixXd mix;       ///< weights of the outputs, outputs x hidden units
-};
+/// Returns whether the outputs are linear functions of one hidden layer, so that a linear regression fits
+/// their weights exactly.
+bool has_projected_outputs(const Mlp& mlp);
 
-/// The normal equations of a Gauss-Newton step of a network with weight decay, for any damping.
+/// Returns the last layer that minimises the loss over the patterns with weight decay while the hidden layer
+/// stays as it is: a ridge regression on the hidden units. Only for networks with has_projected_outputs().
+MlpLayer fitted_outputs(const Mlp& mlp, const Patterns& patterns, double weight_decay);
+
+/// The normal equations of a Gauss-Newton step of a network with weight decay, for any damping. If
+/// has_projected_outputs(), the step moves the hidden layer alone, and the matrix takes into account that
+/// fitted_outputs() follow (variable projection in Kaufman's form; docs/neural.md).
 class GaussNewtonSystem {
  public:
   GaussNewtonSystem(const Mlp& mlp, const Eigen::Ref<const Eigen::MatrixXd>& inputs, double weight_decay);
 
   /// Mean of the diagonal of the matrix.
-  double mean_diagonal() const;
+  double mean_diagonal() const { return matrix_.diagonal().mean(); }
 
-  /// Solves (matrix + damping I) step = -gradient. Empty if the matrix is not positive definite.
+  /// Solves (matrix + damping I) step = -gradient, with zeros for outputs that are fitted. `gradient` has all
+  /// parameters. Empty if the matrix is not positive definite.
   std::optional<Eigen::VectorXd> step(const Eigen::VectorXd& gradient, double damping) const;
 
  private:
-  double weight_decay_;
-  std::variant<Eigen::MatrixXd, TwoLayerBlocks> matrix_;  ///< the first with the weight decay
+  Eigen::MatrixXd matrix_;  ///< of the first parameters, all or those of the hidden layer; lower triangle
 };
 
 }  // namespace faultline

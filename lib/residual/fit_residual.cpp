@@ -43,7 +43,7 @@ TrainedMlp train_network(const Patterns& training, const Patterns& validation, c
     return train_back_propagation(std::move(start), training, validation, trainer, progress);
   }
   LevenbergMarquardtOptions trainer{.weight_decay = options.weight_decay};
-  trainer.stop.max_iterations = options.max_iterations > 0 ? options.max_iterations : 60;
+  trainer.stop.max_iterations = options.max_iterations > 0 ? options.max_iterations : 25;
   return train_levenberg_marquardt(std::move(start), training, validation, trainer, progress);
 }
 

@@ -27,7 +27,7 @@ struct ResidualOptions {
   /// cover few moves, and a faulty robot leaves them. Kind mlp on an identified robot only; 0 = logs alone,
   /// as in the paper.
   double twin_share = 0.5;
-  int max_iterations = 0;  ///< of the trainer; 0 = 60 (Levenberg-Marquardt) or 1500 epochs (back-propagation)
+  int max_iterations = 0;  ///< of the trainer; 0 = 25 (Levenberg-Marquardt) or 1500 epochs (back-propagation)
   double weight_decay = 1e-9;
   std::uint64_t seed = 1;
 };

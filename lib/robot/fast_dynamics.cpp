@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/robot/fast_dynamics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
@@ -148,8 +149,70 @@ void FastDynamics::inertia_and_bias(const JointVector& q, const JointVector& dq,
   if (!chain_.shared_drives.empty()) add_shared_rotors(chain_, inertia);
 }
 
+FastDynamics::Pose FastDynamics::pose(const JointVector& q) const {
+  Pose out;
+  double theta = 0.0;
+  for (int i = 0; i < revolute_; ++i) {
+    const double angle = sign_[revolute_joint_[i]] * q[revolute_joint_[i]];
+    if (gravity_in_plane_) {
+      const auto [up, along] = elementary::sin_cos(theta += angle);
+      out.up[i] = up;
+      out.along[i] = along;
+    }
+    if (i == 0) continue;
+    const auto [sine, cosine] = elementary::sin_cos(angle);
+    out.sine[i] = sine;
+    out.cosine[i] = cosine;
+  }
+  return out;
+}
+
+JointVector FastDynamics::planar_torque(const Pose& pose, const JointVector& dq,
+                                        const JointVector& ddq) const {
+  PerJoint<double> square, turn, torque;  // of each revolute body: squared rate, acceleration
+  double rate = 0.0, sum = 0.0;
+  for (int i = 0; i < revolute_; ++i) {
+    const int joint = revolute_joint_[i];
+    rate += sign_[joint] * dq[joint];
+    square[i] = rate * rate;
+    turn[i] = sum += sign_[joint] * ddq[joint];
+    torque[i] = bodies_.diagonal[i] * turn[i];
+    if (gravity_in_plane_)
+      torque[i] += bodies_.gravity[i].alpha * pose.along[i] + bodies_.gravity[i].beta * pose.up[i];
+    double s = i > 0 ? pose.sine[i] : 0.0, c = i > 0 ? pose.cosine[i] : 1.0;
+    for (int k = i - 1; k >= 0; --k) {  // c, s: cosine and sine of theta_i - theta_k
+      const Pair& pair = bodies_.pairs[k][i];
+      const double a = pair.alpha * c + pair.beta * s, slope = pair.beta * c - pair.alpha * s;
+      torque[k] += a * turn[i] + slope * square[i];
+      torque[i] += a * turn[k] - slope * square[k];
+      if (k == 0) break;
+      const double c_next = c * pose.cosine[k] - s * pose.sine[k];
+      s = s * pose.cosine[k] + c * pose.sine[k];
+      c = c_next;
+    }
+  }
+  JointVector out(joints_);
+  double collected = 0.0;  // torque on all bodies at or beyond a joint
+  for (int j = revolute_ - 1; j >= 0; --j) {
+    const int joint = revolute_joint_[j];
+    out[joint] = sign_[joint] * (collected += torque[j]);
+  }
+  for (int i = 0; i < prismatic_; ++i) {
+    const int joint = prismatic_joint_[i];
+    out[joint] = bodies_.weight[joint];
+    for (int k = 0; k < prismatic_; ++k) {
+      const int other = prismatic_joint_[k];
+      out[joint] +=
+          sign_[joint] * sign_[other] * bodies_.carried_mass[prismatic_joint_[std::max(i, k)]] * ddq[other];
+    }
+  }
+  for (int i = 0; i < joints_; ++i) out[i] += bodies_.rotor_inertia[i] * ddq[i];
+  return out;
+}
+
 JointVector FastDynamics::body_torque(const JointVector& q, const JointVector& dq,
                                       const JointVector& ddq) const {
+  if (planar_ && chain_.shared_drives.empty()) return planar_torque(pose(q), dq, ddq);
   JointMatrix inertia;
   JointVector bias;
   inertia_and_bias(q, dq, inertia, bias);

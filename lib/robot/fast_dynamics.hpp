@@ -33,6 +33,15 @@ class FastDynamics {
   /// M(q) and h(q, dq) + G(q).
   void inertia_and_bias(const JointVector& q, const JointVector& dq, JointMatrix& inertia,
                         JointVector& bias) const;
+  /// Sines and cosines of a position, which the torques of all robots with the same axes share.
+  struct Pose {
+    std::array<double, kMaxJoints> sine, cosine;  ///< of the angle between a revolute body and the one before
+    std::array<double, kMaxJoints> up, along;     ///< sine and cosine of its absolute angle; only for gravity
+  };
+  /// Only for parallel axes, see planar().
+  Pose pose(const JointVector& q) const;
+  /// M ddq + h + G in a pose, without shared drives. Only for parallel axes.
+  JointVector planar_torque(const Pose& pose, const JointVector& dq, const JointVector& ddq) const;
   /// M ddq + h + G.
   JointVector body_torque(const JointVector& q, const JointVector& dq, const JointVector& ddq) const;
   /// Momentum M dq and the part dT/dq - G of its rate that is neither motor torque nor friction, both without

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 
@@ -52,22 +53,40 @@ double share_right(const Mlp& mlp, const Patterns& patterns) {
   return static_cast<double>(right) / patterns.count();
 }
 
-TEST(NormalEquations, AStepOfATwoLayerNetworkSolvesTheDenseNormalEquations) {
-  const Mlp mlp = make_mlp({4, 5, 3}, OutputKind::linear, 9);
-  const MatrixXd inputs = MatrixXd::Random(4, 700);
-  const double decay = 0.02, damping = 1e-3;
+/// Dense normal equations with decay 0.02 of a network 4-5-3: weights have it, biases have none.
+MatrixXd dense_normal_equations(const Mlp& mlp, const MatrixXd& inputs) {
   MatrixXd dense = gauss_newton_matrix(mlp, inputs).selfadjointView<Eigen::Lower>();
   for (int p = 0; p < mlp.parameters(); ++p) {
     const bool is_bias = (p >= 20 && p < 25) || p >= 40;  // 4 x 5 weights, 5 biases, 5 x 3 weights, 3 biases
-    if (!is_bias) dense(p, p) += decay;
+    if (!is_bias) dense(p, p) += 0.02;
   }
-  const GaussNewtonSystem system(mlp, inputs, decay);
-  EXPECT_NEAR(system.mean_diagonal(), dense.diagonal().mean(), 1e-12 * dense.diagonal().mean());
-  dense.diagonal().array() += damping;
-  const Eigen::VectorXd gradient = Eigen::VectorXd::Random(mlp.parameters());
-  const auto step = system.step(gradient, damping);
+  return dense;
+}
+
+TEST(NormalEquations, AStepOfTheHiddenLayerIsThatOfTheDenseEquationsWithFittedOutputs) {
+  const double damping = 1e-3;
+  Mlp mlp = make_mlp({4, 5, 3}, OutputKind::linear, 9);
+  const Patterns patterns{MatrixXd::Random(4, 700), MatrixXd::Random(3, 700)};
+  mlp.layers[1] = fitted_outputs(mlp, patterns, 0.02);
+  const Eigen::VectorXd gradient = loss_gradient(mlp, patterns.inputs, patterns.targets, 0.02).gradient;
+  EXPECT_LT(gradient.tail(18).norm(), 1e-9 * gradient.norm());
+  MatrixXd dense = dense_normal_equations(mlp, patterns.inputs);
+  dense.diagonal().head(25).array() += damping;
+  const Eigen::VectorXd expected = -dense.ldlt().solve(gradient);
+  const auto step = GaussNewtonSystem(mlp, patterns.inputs, 0.02).step(gradient, damping);
   ASSERT_TRUE(step);
-  EXPECT_LT((dense * *step + gradient).norm(), 1e-9 * gradient.norm());
+  EXPECT_LT((step->head(25) - expected.head(25)).norm(), 1e-8 * expected.norm());
+  EXPECT_EQ(step->tail(18).norm(), 0.0);
+}
+
+TEST(NormalEquations, OutputsAreFittedWhenHiddenUnitsAreCopies) {
+  Mlp mlp = make_mlp({2, 4, 1}, OutputKind::linear, 3);
+  mlp.layers[0].weights.row(1) = mlp.layers[0].weights.row(0);
+  mlp.layers[0].bias[1] = mlp.layers[0].bias[0];
+  Patterns patterns{MatrixXd::Random(2, 300), {}};
+  patterns.targets = forward(mlp, patterns.inputs);
+  mlp.layers[1] = fitted_outputs(mlp, patterns, 0.0);
+  EXPECT_LT(mean_squared_error(mlp, patterns), 1e-18);
 }
 
 TEST(NormalEquations, AreTheHessianWhereTheFitIsPerfect) {

@@ -53,7 +53,7 @@ struct Tangent {
   void move(double h, const MotionSlopes& at);
 };
 
-void stop_locked(const MotionLaw& law, VectorXd& state) {
+void stop_locked(const MotionLaw& law, StateVector& state) {
   for (int j = 0; j < law.joints(); ++j)
     if (law.is_locked(j)) state[law.joints() + j] = 0.0;
 }
@@ -114,52 +114,62 @@ void Tangent::move(double h, const MotionSlopes& at) {
   with_state_count(static_cast<int>(by_state.rows()), [&](auto count) { move_tangent<count>(h, at, *this); });
 }
 
-/// Integrates the state through one part by Runge-Kutta steps of fourth order.
-void move(const Part& part, const IntervalTorque& torque, int substeps, VectorXd& state) {
-  const int n = part.law->joints();
+JointVector acceleration_at(const MotionLaw& law, const StateVector& state, const JointVector& torque) {
+  JointVector ddq;
+  law.acceleration(state.head(law.joints()), state.tail(law.joints()), torque, ddq);
+  return ddq;
+}
+
+/// Advances the state from time `at` by a Runge-Kutta step of fourth order; `ddq` is its acceleration there.
+void advance(const MotionLaw& law, const IntervalTorque& torque, double at, double h, const JointVector& ddq,
+             StateVector& state) {
+  const int n = law.joints();
+  StateVector rate(2 * n), sum(2 * n);
+  for (int stage = 0; stage < 4; ++stage) {
+    if (stage == 0) {
+      rate << state.tail(n), ddq;
+      sum = kWeight[0] * rate;
+      continue;
+    }
+    const StateVector there = state + kPlace[stage] * h * rate;
+    rate << there.tail(n), acceleration_at(law, there, torque.at(at + kPlace[stage] * h));
+    sum += kWeight[stage] * rate;
+  }
+  state += h * sum;
+}
+
+/// Integrates the state through one part.
+void move(const Part& part, const IntervalTorque& torque, int substeps, StateVector& state) {
   const double h = (part.end_s - part.begin_s) / substeps;
   stop_locked(*part.law, state);
-  JointVector q(n), dq(n), ddq(n);
-  VectorXd rate = VectorXd::Zero(2 * n), sum(2 * n);
   for (int s = 0; s < substeps; ++s) {
     const double at = part.begin_s + s * h;
-    sum.setZero();
-    for (int stage = 0; stage < 4; ++stage) {
-      q = state.head(n) + kPlace[stage] * h * rate.head(n);
-      dq = state.tail(n) + kPlace[stage] * h * rate.tail(n);
-      part.law->acceleration(q, dq, torque.at(at + kPlace[stage] * h), ddq);
-      rate << dq, ddq;
-      sum += kWeight[stage] * rate;
-    }
-    state += h * sum;
+    advance(*part.law, torque, at, h, acceleration_at(*part.law, state, torque.at(at)), state);
   }
 }
 
 /// Integrates likewise and returns the derivatives. One of their steps spans two of the state; its slopes are
 /// Simpson's mean of those before, between and after the two. `substeps` is even.
-Tangent move_with_slopes(const Part& part, const IntervalTorque& torque, int substeps, VectorXd& state) {
-  const int n = part.law->joints();
+Tangent move_with_slopes(const Part& part, const IntervalTorque& torque, int substeps, StateVector& state) {
+  const MotionLaw& law = *part.law;
+  const int n = law.joints();
   const double h = (part.end_s - part.begin_s) / substeps;
-  stop_locked(*part.law, state);
-  Tangent out(2 * n, part.law->body().layout().count());
+  stop_locked(law, state);
+  Tangent out(2 * n, law.body().layout().count());
   for (int j = 0; j < n; ++j)
-    if (part.law->is_locked(j)) out.by_state(n + j, n + j) = 0.0;
+    if (law.is_locked(j)) out.by_state(n + j, n + j) = 0.0;
   MotionSlopes begin, middle, end, mean;
+  JointVector ddq;
   const auto slopes_at = [&](double at, MotionSlopes& slopes) {
-    const JointVector q = state.head(n), dq = state.tail(n), tau = torque.at(at);
-    JointVector ddq(n);
-    part.law->acceleration(q, dq, tau, ddq);
-    part.law->slopes(q, dq, tau, ddq, slopes);
-  };
-  const auto step_to = [&](int s) {
-    const double at = part.begin_s + s * h;
-    move({part.law, at - h, at, part.within}, torque, 1, state);
-    return at;
+    law.acceleration_and_slopes(state.head(n), state.tail(n), torque.at(at), ddq, slopes);
   };
   slopes_at(part.begin_s, begin);
-  for (int s = 2; s <= substeps; s += 2) {
-    slopes_at(step_to(s - 1), middle);
-    slopes_at(step_to(s), end);
+  for (int s = 0; s < substeps; s += 2) {
+    const double first = part.begin_s + s * h, second = part.begin_s + (s + 1) * h;
+    advance(law, torque, first, h, ddq, state);
+    slopes_at(second, middle);
+    advance(law, torque, second, h, ddq, state);
+    slopes_at(part.begin_s + (s + 2) * h, end);
     mean_of(begin, middle, end, mean);
     out.move(2.0 * h, mean);
     std::swap(begin, end);
@@ -202,8 +212,8 @@ IntervalTorque torque_of(const UniformLog& log, int k, const StepSetting& settin
 
 /// Returns the number of substeps of an interval, which is even: more for fast motion and for friction near
 /// its change of sign.
-int substeps_of(const StepSetting& setting, const MotionPlan& plan, const VectorXd& begin,
-                const VectorXd& end) {
+int substeps_of(const StepSetting& setting, const MotionPlan& plan, const StateVector& begin,
+                const StateVector& end) {
   const MotionBody& body = plan.usual->body();
   const int n = plan.usual->joints();
   double per_s = 1.0 / setting.substep_s;
@@ -277,7 +287,7 @@ LinearSteps linear_steps(const UniformLog& log, const Trajectory& about, const S
     auto slope = out.slope.middleCols(k * states, states);
     auto number = out.number.middleCols(k * numbers, numbers);
     const IntervalTorque torque = torque_of(log, k, setting, plan);
-    VectorXd state = about.col(k);
+    StateVector state = about.col(k);
     const int substeps = substeps_of(setting, plan, state, about.col(k + 1));
     for (int p = 0; p < parts.count; ++p) {
       const Tangent moved = move_with_slopes(parts.part[p], torque, substeps, state);
@@ -302,7 +312,7 @@ VectorXd next_state(const UniformLog& log, int k, const Trajectory& about, const
                     const MotionPlan& plan) {
   const Parts parts = parts_of(log.time_s(k), setting.period_s, plan);
   const IntervalTorque torque = torque_of(log, k, setting, plan);
-  VectorXd state = about.col(k);
+  StateVector state = about.col(k);
   const int substeps = substeps_of(setting, plan, state, about.col(k + 1));
   for (int p = 0; p < parts.count; ++p) move(parts.part[p], torque, substeps, state);
   return state;

@@ -38,9 +38,12 @@ MotionBody::MotionBody(RigidColumns rigid, VectorXd friction_width)
 
 void MotionBody::torque_by_parameter(const JointVector& q, const JointVector& dq, const JointVector& ddq,
                                      Eigen::Ref<MatrixXd> out) const {
-  for (std::size_t p = 0; p < unit_.size(); ++p)
-    out.col(static_cast<Eigen::Index>(p)) = unit_[p].body_torque(q, dq, ddq);
-  if (!unit_.empty()) return;
+  if (!unit_.empty()) {
+    const FastDynamics::Pose pose = unit_.front().pose(q);
+    for (std::size_t p = 0; p < unit_.size(); ++p)
+      out.col(static_cast<Eigen::Index>(p)) = unit_[p].planar_torque(pose, dq, ddq);
+    return;
+  }
   LinkRegressor links;
   torque_regressor(rigid_.chain, q, dq, ddq, links);
   const int n = rigid_.joints();
@@ -74,14 +77,18 @@ JointVector MotionLaw::friction_rate(const JointVector& q) const {
   return out;
 }
 
-void MotionLaw::slopes(const JointVector& q, const JointVector& dq, const JointVector& tau,
-                       const JointVector& ddq, MotionSlopes& out) const {
+void MotionLaw::acceleration_and_slopes(const JointVector& q, const JointVector& dq, const JointVector& tau,
+                                        JointVector& ddq, MotionSlopes& out) const {
   const int n = joints();
   const MotionLayout at = body_->layout();
   StateMatrix by_state = StateMatrix::Zero(n, 2 * n);
   JointMatrix inertia;
-  JointVector bias;
+  JointVector bias, lost;
   dynamics_.inertia_and_bias(q, dq, inertia, bias);
+  dynamics_.friction(dq, lost);
+  ddq = gain_.cwiseProduct(tau) + force_ - bias - lost;
+  JointMatrix factor = inertia;
+  solve_small(n, factor.data(), ddq.data(), locked_);
   const JointVector torque = bias + inertia.lazyProduct(ddq);
   JointVector moved = q;
   for (int j = 0; j < n; ++j) {
@@ -91,6 +98,12 @@ void MotionLaw::slopes(const JointVector& q, const JointVector& dq, const JointV
     moved[j] = q[j];
   }
   moved = dq;
+  const bool is_planar = dynamics_.planar() && dynamics_.chain().shared_drives.empty();
+  const FastDynamics::Pose pose = is_planar ? dynamics_.pose(q) : FastDynamics::Pose{};
+  const auto torque_at = [&](const JointVector& velocity) {
+    return is_planar ? dynamics_.planar_torque(pose, velocity, ddq)
+                     : dynamics_.body_torque(q, velocity, ddq);
+  };
   out.torque.setZero(n, at.count());
   body_->torque_by_parameter(q, dq, ddq, out.torque.leftCols(at.base));
   out.torque.leftCols(at.base) *= -1.0;
@@ -99,7 +112,7 @@ void MotionLaw::slopes(const JointVector& q, const JointVector& dq, const JointV
     const double saturated = elementary::tanh(dq[j] / f.width);
     if (dynamics_.depends_on_velocity(j)) {
       moved[j] = dq[j] + kNudge;
-      by_state.col(n + j) = (torque - dynamics_.body_torque(q, moved, ddq)) / kNudge;
+      by_state.col(n + j) = (torque - torque_at(moved)) / kNudge;
       moved[j] = dq[j];
     }
     by_state(j, n + j) -= f.viscous + f.coulomb / f.width * (1.0 - saturated * saturated);

@@ -46,6 +46,9 @@ class MotionBody {
 using StateMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2 * kMaxJoints, 2 * kMaxJoints>;
 
+/// State of a robot: q, then dq.
+using StateVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 2 * kMaxJoints, 1>;
+
 /// Derivatives of an acceleration at one state. Those by a number are inverse * torque.
 struct MotionSlopes {
   StateMatrix by_state;    ///< joints x 2 joints: by q, then dq
@@ -67,9 +70,9 @@ class MotionLaw {
                     JointVector& ddq) const;
   /// Returns the rate at which the friction of each joint changes its velocity near rest, 1/s.
   JointVector friction_rate(const JointVector& q) const;
-  /// Writes the derivatives of the acceleration `ddq` at this state to `out`.
-  void slopes(const JointVector& q, const JointVector& dq, const JointVector& tau, const JointVector& ddq,
-              MotionSlopes& out) const;
+  /// Writes the acceleration under the logged torque `tau` to `ddq` and its derivatives to `out`.
+  void acceleration_and_slopes(const JointVector& q, const JointVector& dq, const JointVector& tau,
+                               JointVector& ddq, MotionSlopes& out) const;
 
  private:
   const MotionBody* body_;

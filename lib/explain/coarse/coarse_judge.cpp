@@ -180,17 +180,24 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
   return out;
 }
 
+/// An explanation, and what the smoothed trajectory follows from.
+struct Regressed {
+  CoarseExplanation explanation;
+  Innovations filter;
+  VectorXd change;  ///< of the unknowns, from the values about which the round is linear
+};
+
 /// Solves the regression over the innovations for the values of the unknowns.
-CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, const Setup& at,
-                            const Linearised& lin, const CoarseJudging& how) {
-  const Innovations filter = innovations(lin.steps, lin.input);
+Regressed regressed(const CoarseLog& log, const CoarseGuess& guess, const Linearised& lin,
+                    const CoarseJudging& how) {
+  Innovations filter = innovations(lin.steps, lin.input);
   const int effects = static_cast<int>(log.day.cols()), columns = filter.columns;
   const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());
   const MatrixXd x = keep.asDiagonal() * filter.white.rightCols(columns);
   const VectorXd y = keep.cwiseProduct(filter.white.col(0));
   // Unknowns are taken as values, not as corrections: their prior is about zero.
   const Regression fit = regress(normal_equations(x, y + x * lin.about), lin.precision);
-  const VectorXd change = fit.estimate - lin.about;
+  VectorXd change = fit.estimate - lin.about;
   CoarseExplanation out;
   const VectorXd left = y - x * change;
   out.left = Eigen::Map<const MatrixXd>(left.data(), filter.states, filter.samples);
@@ -215,8 +222,7 @@ CoarseExplanation regressed(const CoarseLog& log, const CoarseGuess& guess, cons
   out.size_covariance = fit.covariance(effects, out.size.size());
   if (how.move_onset) out.onset_step_s = fit.estimate[columns - 1];
   if (guess.kind == FaultKind::none) out.day_column = x.leftCols(effects);
-  out.about = at.about + smoothed(lin.steps, filter, change);
-  return out;
+  return {std::move(out), std::move(filter), std::move(change)};
 }
 
 VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const VectorXd& size) {
@@ -230,6 +236,20 @@ VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const Vec
   return out;
 }
 
+/// Returns the values about which the next round linearises: the smoothed trajectory, if it holds.
+Setup next_round(const CoarseLog& log, const CoarseGuess& guess, const Setup& at, const LinearSteps& steps,
+                 const Regressed& now) {
+  const CoarseExplanation& e = now.explanation;
+  const double much = log.healthy.left.size() > 0 ? kHoldsShare * log.healthy.mean_square() : 0.0;
+  const bool holds = e.mean_square() < std::max(kHolds, much);
+  Setup next{e.day, e.size, log.about, {}, false};
+  if (holds) next.about = at.about + smoothed(steps, now.filter, now.change);
+  if (falsifies_position(guess.kind) && !holds)
+    next.about -= e.size[0] * read_column(log, guess, log.log.first_row(guess.onset_s));
+  if (e.size.size() > 0) next.size = within_reason(log, guess, e.size);
+  return next;
+}
+
 /// Returns an explanation for a guess that cannot be integrated.
 CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
   CoarseExplanation out;
@@ -240,7 +260,6 @@ CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
   out.left = out.log_ratio = MatrixXd::Zero(log.read.rows(), log.read.cols());
   out.variance = MatrixXd::Ones(log.read.rows(), log.read.cols());
   out.day_column = MatrixXd::Zero(log.read.size(), log.day.cols());
-  out.about = log.about;
   return out;
 }
 
@@ -257,7 +276,7 @@ double tolerated_torque(double tolerated_share) { return kTorqueForState * toler
 CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how) {
   const int n = log.joints(), j = guess.joint - 1, from = log.log.first_row(guess.onset_s);
   const int late = log.samples() - from;
-  const bool reading = falsifies_position(guess.kind), locked = guess.kind == FaultKind::locked && late > 0;
+  const bool locked = guess.kind == FaultKind::locked && late > 0;
   Setup at{VectorXd::Zero(log.day.cols()), guess.start, log.about};
   const bool same_rest = how.known && log.log.first_row(how.known->begin_s) == from;
   if (how.known && (!locked || same_rest))
@@ -273,22 +292,19 @@ CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, c
     }
     Linearised lin = linearise(log, guess, at, how);
     if (!lin.finite) break;
-    CoarseExplanation now = regressed(log, guess, at, lin, how);
-    if (locked) now.about.row(n + j).tail(late).setZero();
-    const double much = log.healthy.left.size() > 0 ? kHoldsShare * log.healthy.mean_square() : 0.0;
-    const bool holds = now.mean_square() < std::max(kHolds, much);
-    Setup next{now.day, {}, holds ? now.about : log.about, {}, false};
-    if (reading && !holds) next.about -= now.size[0] * read_column(log, guess, from);
-    next.size = now.size.size() > 0 ? within_reason(log, guess, now.size) : now.size;
-    const double gained = any ? now.log_likelihood - best.log_likelihood : kImpossibleAtCoarse;
+    Regressed now = regressed(log, guess, lin, how);
+    const CoarseExplanation& e = now.explanation;
+    const double gained = any ? e.log_likelihood - best.log_likelihood : kImpossibleAtCoarse;
+    const bool is_last = round + 1 == how.rounds || std::abs(gained) < kSettled_nats;
+    Setup next = is_last ? Setup{} : next_round(log, guess, at, lin.steps, now);
     if (!any || gained > 0.0) {
-      best = std::move(now);
+      best = std::move(now.explanation);
       best.steps = std::make_shared<const CoarseSteps>(CoarseSteps{
           at.day, at.size, std::move(at.about), std::move(lin.steps), guess.onset_s, end_of(guess)});
     }
     any = true;
+    if (is_last) break;
     at = std::move(next);
-    if (std::abs(gained) < kSettled_nats) break;
   }
   if (!any) return impossible(log, guess);
   best.log_likelihood -= coarse_price(log, guess, best, from);

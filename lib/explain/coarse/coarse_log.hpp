@@ -31,7 +31,6 @@ struct CoarseExplanation {
   Eigen::MatrixXd log_ratio;        ///< ln of `variance` over that of the healthy robot; 0 without it
   /// (2 joints * samples) x effects: whitened columns of the effects of the day. Only for the healthy robot.
   Eigen::MatrixXd day_column;
-  Trajectory about;                            ///< smoothed
   std::shared_ptr<const CoarseSteps> steps{};  ///< of the round that gave this explanation
 
   double mean_square() const { return left.squaredNorm() / static_cast<double>(left.size()); }

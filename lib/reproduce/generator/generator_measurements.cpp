@@ -120,9 +120,9 @@ GeneratorScale quick_scale() {
                        .trajectories = 60,
                        .many_trajectories = 80,
                        .epochs = 200,
-                       .iterations = 12,
-                       .many_iterations = 8,
-                       .noisy_iterations = 8};
+                       .iterations = 8,
+                       .many_iterations = 6,
+                       .noisy_iterations = 4};
   scale.slow_logs.max_rows = 80;
   scale.fast_logs.duration_s = 5.0;
   scale.fast_logs.max_rows = 800;

@@ -22,9 +22,9 @@ struct GeneratorScale {
   int trajectories = 100;       ///< of the paper's training set
   int many_trajectories = 800;  ///< of the large one
   int epochs = 1500;            ///< of back-propagation
-  int iterations = 40;          ///< of Levenberg-Marquardt
-  int many_iterations = 40;     ///< the same on the large set, in the first experiment only
-  int noisy_iterations = 15;    ///< the same on patterns with noise of 0.1, where more only fits the noise
+  int iterations = 20;          ///< of Levenberg-Marquardt
+  int many_iterations = 20;     ///< the same on the large set, in the first experiment only
+  int noisy_iterations = 7;     ///< the same on patterns with noise of 0.1, where more only fits the noise
   LearningLogs slow_logs{};
   LearningLogs fast_logs{.count = 1, .duration_s = 20.0, .sample_period_s = 0.001, .max_rows = 6000};
 };
