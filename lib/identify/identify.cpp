@@ -209,11 +209,12 @@ bool needs_lengths(const Robot& robot) {
 /// Returns the lengths at which to fit first: those of the robot file, or, where torques depend on lengths
 /// that it does not state, those that the torque balance finds. The motion is fitted at these alone.
 std::vector<double> first_lengths(const std::vector<PayloadGroup>& groups, std::size_t logs,
-                                  const Robot& robot, const IdentifyOptions& options) {
+                                  const Robot& robot, const IdentifyOptions& options,
+                                  const Progress& progress) {
   if (options.method == IdentifyMethod::weak_form || !needs_lengths(robot)) return robot.chain.length;
   IdentifyOptions balance = options;
   balance.method = IdentifyMethod::weak_form;
-  const Round round = fit_groups(groups, logs, robot, balance, {});
+  const Round round = fit_groups(groups, logs, robot, balance, progress);
   return has_fast_log(round.id) ? round.lengths.value_or(robot.chain.length) : robot.chain.length;
 }
 
@@ -251,7 +252,7 @@ Identification identify(std::span<LogSource* const> logs, const Robot& robot, co
   std::vector<PayloadGroup> groups = group_by_payload(logs, robot);
   if (groups.empty()) groups.emplace_back();
   Robot sized = robot;
-  sized.chain.length = first_lengths(groups, logs.size(), robot, options);
+  sized.chain.length = first_lengths(groups, logs.size(), robot, options, progress);
   Round round = fit_groups(groups, logs.size(), sized, options, progress);
   for (int k = 1; k < kMostRounds && round.lengths; ++k) {
     sized.chain.length = *round.lengths;

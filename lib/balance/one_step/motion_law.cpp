@@ -101,8 +101,7 @@ void MotionLaw::acceleration_and_slopes(const JointVector& q, const JointVector&
   const bool is_planar = dynamics_.planar() && dynamics_.chain().shared_drives.empty();
   const FastDynamics::Pose pose = is_planar ? dynamics_.pose(q) : FastDynamics::Pose{};
   const auto torque_at = [&](const JointVector& velocity) {
-    return is_planar ? dynamics_.planar_torque(pose, velocity, ddq)
-                     : dynamics_.body_torque(q, velocity, ddq);
+    return is_planar ? dynamics_.planar_torque(pose, velocity, ddq) : dynamics_.body_torque(q, velocity, ddq);
   };
   out.torque.setZero(n, at.count());
   body_->torque_by_parameter(q, dq, ddq, out.torque.leftCols(at.base));
