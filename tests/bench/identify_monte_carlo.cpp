@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Errors of the identification and how often its intervals hold the truth, over many runs of a simulated
 // SCARA whose controller, noise and motion change from run to run. Usage: faultline_identify_monte_carlo
-// [RUNS [PERIOD_S [DURATION_S]]]; defaults 200, 0.001, 10.
+// [RUNS [PERIOD_S [DURATION_S [weak_form]]]]; defaults 200, 0.001, 10, the method that the program chooses.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   testing::ClosedFormRun run;
   run.period_s = argc > 2 ? std::atof(argv[2]) : 0.001;
   run.duration_s = argc > 3 ? std::atof(argv[3]) : 10.0;
+  const bool weak_form = argc > 4 && argv[4] == std::string("weak_form");
   const testing::ClosedFormScara scara;
   std::map<std::string, double> truth = {
       {"a", scara.a()}, {"b", scara.b()}, {"c", scara.c()}, {"m3", scara.m3}};
@@ -51,6 +52,7 @@ int main(int argc, char** argv) {
     robot.log.torque_between_samples = TorqueTiming::held;
     IdentifyOptions options;
     options.threads = 1;
+    if (weak_form) options.method = IdentifyMethod::weak_form;
     const double begin = seconds();
     const Identification id = identify(logs, robot, options);
     times.push_back(seconds() - begin);
