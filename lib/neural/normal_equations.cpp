@@ -86,9 +86,7 @@ void add_weight_decay(MatrixXd& normal, const Mlp& mlp, double weight_decay) {
 MatrixXd hidden_units(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
   const Index hidden = mlp.layers[1].weights.cols();
   MatrixXd units(hidden + 1, inputs.cols());
-  units.topRows(hidden) = forward({{mlp.layers[0]}, OutputKind::linear}, inputs);
-  for (Index n = 0; n < units.cols(); ++n)
-    for (Index k = 0; k < hidden; ++k) units(k, n) = elementary::tanh(units(k, n));
+  units.topRows(hidden) = layer_inputs(mlp, inputs)[1];
   units.row(hidden).setOnes();
   return units;
 }

@@ -48,6 +48,22 @@ UniformLog driven_log(int samples) {
   return log;
 }
 
+TEST(OneStep, SlopesComeWithTheAccelerationOfTheLawAlsoWithRipple) {
+  MotionBody smooth = planar_arm();
+  RigidColumns rigid = smooth.rigid();
+  rigid.chain.ripples = {{.joint = 1, .rate = 12.0, .cosine = 0.5, .sine = 0.3}};
+  for (const MotionBody& body : {smooth, MotionBody(rigid, VectorXd::Constant(2, 0.2))}) {
+    const MotionLaw law(body, numbers_of(body));
+    const JointVector q = Eigen::Vector2d(0.3, -0.5), dq = Eigen::Vector2d(0.9, -1.1),
+                      tau = Eigen::Vector2d(2.0, 1.0);
+    JointVector alone, beside;
+    law.acceleration(q, dq, tau, alone);
+    MotionSlopes slopes;
+    law.acceleration_and_slopes(q, dq, tau, beside, slopes);
+    EXPECT_LT((alone - beside).norm(), 1e-12 * alone.norm());
+  }
+}
+
 TEST(OneStep, SlopesAreThoseOfFiniteDifferences) {
   const MotionBody body = planar_arm();
   const VectorXd numbers = numbers_of(body);

@@ -124,13 +124,10 @@ JointVector acceleration_at(const MotionLaw& law, const StateVector& state, cons
 void advance(const MotionLaw& law, const IntervalTorque& torque, double at, double h, const JointVector& ddq,
              StateVector& state) {
   const int n = law.joints();
-  StateVector rate(2 * n), sum(2 * n);
-  for (int stage = 0; stage < 4; ++stage) {
-    if (stage == 0) {
-      rate << state.tail(n), ddq;
-      sum = kWeight[0] * rate;
-      continue;
-    }
+  StateVector rate(2 * n);
+  rate << state.tail(n), ddq;
+  StateVector sum = kWeight[0] * rate;
+  for (int stage = 1; stage < 4; ++stage) {
     const StateVector there = state + kPlace[stage] * h * rate;
     rate << there.tail(n), acceleration_at(law, there, torque.at(at + kPlace[stage] * h));
     sum += kWeight[stage] * rate;

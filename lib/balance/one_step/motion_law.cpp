@@ -85,8 +85,9 @@ void MotionLaw::acceleration_and_slopes(const JointVector& q, const JointVector&
   JointMatrix inertia;
   JointVector bias, lost;
   dynamics_.inertia_and_bias(q, dq, inertia, bias);
-  dynamics_.friction(dq, lost);
-  ddq = gain_.cwiseProduct(tau) + force_ - bias - lost;
+  const JointVector acting = gain_.cwiseProduct(tau) + force_;
+  dynamics_.drag(q, dq, acting, lost);
+  ddq = acting - bias - lost;
   JointMatrix factor = inertia;
   solve_small(n, factor.data(), ddq.data(), locked_);
   const JointVector torque = bias + inertia.lazyProduct(ddq);
