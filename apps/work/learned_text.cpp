@@ -65,7 +65,8 @@ std::string reach_table(const Model& model) {
   std::string text =
       fmt::format("{:<18} {:>5} {:>9} {:>16} {:>10}\n", "fault", "joint", "found", "from", "delay/s");
   for (const Detectability& reach : model.validation.reach) {
-    const std::string size = detectable_size_text(reach, model.robot.chain);
+    const bool is_hidden = std::isnan(reach.size) && describe(reach.label.kind).size_count > 0;
+    const std::string size = is_hidden ? "none" : detectable_size_text(reach, model.robot.chain);
     text += fmt::format("{:<18} {:>5} {:>9} {:>16} {:>10}\n", to_string(reach.label.kind), reach.label.joint,
                         fmt::format("{} of {}", reach.found, reach.runs), size.empty() ? "-" : size,
                         delay_text(reach.median_delay_s));
@@ -142,7 +143,8 @@ std::string mechanics_text(const Learned& learned) {
              "\nTested on simulated runs of the identified robot that were not used for training:\n{}",
              validation_text(learned.model.validation)) +
          "\nThe smallest fault whose evidence passes its limit when it begins in the middle of a log like "
-         "the healthy ones, and how many of the simulated faults were found:\n" +
+         "the healthy ones (none: in a tenth of the logs a joint at rest or its noise hides it at any size), and "
+         "how many of the simulated faults were found:\n" +
          reach_table(learned.model) + limits_text(learned.model.explain.limits, learned.model.labels);
 }
 

@@ -26,7 +26,7 @@ int halted_at(const BalanceRows& rows, const BalanceModel& model, int j, double 
   const int after = std::max(2, static_cast<int>(std::lround(kStays_s / row_s)));
   if (stay.end - stay.begin <= after) return stay.end;
   const double slow = std::max(
-      3.0 * (model.dq_noise[j] > 0.0 && !model.setting.velocity_is_difference ? model.dq_noise[j] : 0.0),
+      3.0 * (model.dq_noise[j] > 0.0 && model.setting.measures_velocity(j) ? model.dq_noise[j] : 0.0),
       0.5 * model.setting.friction_width[j]);
   const int bounces = static_cast<int>(std::lround(kBounces_s / row_s));
   const auto speed = rows.dq.col(j);

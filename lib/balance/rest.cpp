@@ -28,7 +28,8 @@ JointMask resting_rows(const BalanceRows& rows, const Eigen::VectorXd& slow) {
 
 Eigen::VectorXd speed_of_rest(const BalanceModel& model) {
   Eigen::VectorXd out = kSlowShare * model.top_speed;
-  if (!model.setting.velocity_is_difference) out = out.cwiseMax(kBeyondNoise * model.dq_noise);
+  for (int j = 0; j < out.size(); ++j)
+    if (model.setting.measures_velocity(j)) out[j] = std::max(out[j], kBeyondNoise * model.dq_noise[j]);
   return out;
 }
 

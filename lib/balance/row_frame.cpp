@@ -93,7 +93,7 @@ double reach_s(const RowSetting& setting) {
 }
 
 double velocity_reach_s(const RowSetting& setting, double share) {
-  if (setting.velocity_is_difference || setting.fusion.size() == 0) return 0.0;
+  if (setting.fusion.size() == 0) return 0.0;
   const double decay = setting.fusion.maxCoeff();
   if (decay >= 1.0) return std::numeric_limits<double>::infinity();
   return decay > 0.0 ? setting.period_s * elementary::log(share) / elementary::log(decay) : 0.0;
@@ -101,7 +101,7 @@ double velocity_reach_s(const RowSetting& setting, double share) {
 
 VectorXd fused_velocity(const MeasuredMotion& reading, const RowSetting& setting, int joint) {
   const VectorXd difference = gradient(reading.q, setting.period_s);
-  if (setting.velocity_is_difference || reading.dq.size() == 0) return difference;
+  if (!setting.measures_velocity(joint) || reading.dq.size() == 0) return difference;
   VectorXd off = difference - reading.dq;
   const Index last = off.size() - 1;
   if (last > 1) off[0] = off[1], off[last] = off[last - 1];  // at the ends a difference is half a sample off

@@ -23,13 +23,16 @@ struct RowSetting {
   int decimation = 1;           ///< samples between two rows; never finer than the kernel
   bool torque_is_held = false;  ///< between recorded samples; else it is interpolated linearly
   int torque_lag = 0;  ///< samples by which the acting torque is logged too late; negative: too early
-  bool velocity_is_difference = false;  ///< the logged velocity contains no more than the positions
-  Eigen::VectorXd fusion;  ///< by joint: decay of the average that mixes difference and logged velocity
+  /// By joint: decay of the average that mixes difference and logged velocity; 0: the velocity was computed
+  /// from the position, or there is none.
+  Eigen::VectorXd fusion;
   Eigen::VectorXd friction_width;  ///< by joint: rad/s or m/s of tanh(dq / width)
   Eigen::VectorXd compliance;      ///< by joint: of the gear spring, rad per N m or m per N; 0: rigid
   std::vector<RippleRate> ripples;
 
   int joints() const { return static_cast<int>(friction_width.size()); }
+  /// Whether the logged velocity of a joint (from 0) is a measurement of its own.
+  bool measures_velocity(int joint) const { return fusion.size() > 0 && fusion[joint] > 0.0; }
   double row_s() const { return period_s * decimation; }  ///< between two rows
 };
 

@@ -219,9 +219,13 @@ Eigen::VectorXd sample_noise(const Eigen::MatrixXd& values) {
   Eigen::VectorXd noise(values.cols());
   for (int j = 0; j < values.cols(); ++j) {
     std::vector<double> size;
-    for (int k = 4; k < values.rows(); ++k)
-      size.push_back(std::abs(values(k, j) - 4.0 * values(k - 1, j) + 6.0 * values(k - 2, j) -
-                              4.0 * values(k - 3, j) + values(k - 4, j)));
+    const auto second = [&](int k) {
+      return (values(k, j) - values(k - 1, j)) - (values(k - 1, j) - values(k - 2, j));
+    };
+    for (int k = 4; k < values.rows(); ++k) {
+      const double fourth = std::abs((second(k) - second(k - 1)) - (second(k - 1) - second(k - 2)));
+      if (fourth > 0.0) size.push_back(fourth);
+    }
     noise[j] =
         size.empty() ? 0.0 : upper_median(std::move(size)) / (kNormalMad * std::sqrt(kFourthDifference));
   }

@@ -56,7 +56,7 @@ std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs);
 Eigen::VectorXd joint_medians(const std::vector<Eigen::VectorXd>& by_log);
 
 /// Estimates the standard deviation of the white noise in each column from its fourth differences, robust
-/// against motion and steps.
+/// against motion and steps. Differences of 0 do not count: a coarse encoder repeats its value at rest.
 Eigen::VectorXd sample_noise(const Eigen::MatrixXd& values);
 
 /// Samples of each joint that repeat the position before.

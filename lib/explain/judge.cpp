@@ -88,7 +88,7 @@ Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
 bool velocity_shows_rest(const LogFit& fit, const FaultClaim& claim) {
   const UniformLog& log = fit.log();
   const int j = claim.joint - 1;
-  if (log.dq.rows() == 0 || fit.model().setting.velocity_is_difference) return false;
+  if (log.dq.rows() == 0 || !fit.model().setting.measures_velocity(j)) return false;
   int samples = 0, same = 0;
   double square = 0.0;
   for (int k = 1; k < log.rows(); ++k) {
@@ -306,7 +306,7 @@ FaultHypothesis judge_position_error(const LogFit& fit, FaultClaim claim) {
 
 /// Judges a false position that the velocity shows, too, or does not if it is measured independently.
 FaultHypothesis judge_position(const LogFit& fit, FaultClaim claim) {
-  const bool is_one = fit.log().dq.rows() == 0 || fit.model().setting.velocity_is_difference;
+  const bool is_one = fit.log().dq.rows() == 0 || !fit.model().setting.measures_velocity(claim.joint - 1);
   FaultHypothesis best = judge_position_error(fit, claim);
   if (claim.velocity_is_true || is_one) return best;
   claim.velocity_is_true = true;

@@ -73,12 +73,13 @@ double first_motion_s(const LogFit& fit) {
 
 /// Returns the white noise of a log over that of the healthy logs, by joint.
 VectorXd row_noise_level(const UniformLog& log, const BalanceModel& model) {
-  const bool by_position = model.setting.velocity_is_difference || log.dq.rows() == 0;
-  const VectorXd& now = by_position ? log.q_noise : log.dq_noise;
-  const VectorXd& usual = by_position ? model.q_noise : model.dq_noise;
-  VectorXd out(now.size());
-  for (int j = 0; j < out.size(); ++j)
-    out[j] = std::clamp(usual[j] > 0.0 ? now[j] / usual[j] : 1.0, kLeastNoiseLevel, kMostNoiseLevel);
+  VectorXd out(log.joints());
+  for (int j = 0; j < out.size(); ++j) {
+    const bool by_velocity = model.setting.measures_velocity(j) && log.dq.rows() > 0;
+    const double now = by_velocity ? log.dq_noise[j] : log.q_noise[j],
+                 usual = by_velocity ? model.dq_noise[j] : model.q_noise[j];
+    out[j] = std::clamp(usual > 0.0 ? now / usual : 1.0, kLeastNoiseLevel, kMostNoiseLevel);
+  }
   return out;
 }
 

@@ -63,7 +63,6 @@ void fields(auto& v, MaybeConst<RowSetting> auto& s) {
   v("decimation", s.decimation);
   v("torque_is_held", s.torque_is_held);
   v("torque_lag", s.torque_lag);
-  v("velocity_is_difference", s.velocity_is_difference);
   v("fusion", s.fusion);
   v("friction_width", s.friction_width);
   v("compliance", s.compliance);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/log_channels.hpp"
 #include "lib/simulate/clock.hpp"
@@ -23,6 +24,15 @@ constexpr double kLeastGap = 0.01;  // least time between two stamps, as a share
 void differ_velocity(Log& log, double period_s) {
   for (int j = 0; j < log.joints(); ++j)
     for (int k = 1; k < log.rows(); ++k) log.dq[j][k] = (log.q[j][k] - log.q[j][k - 1]) / period_s;
+}
+
+/// Passes the velocity through a low pass of first order that holds its input between rows.
+void filter_velocity(Log& log, double time_constant_s, double period_s) {
+  const double share = 1.0 - elementary::exp(-period_s / time_constant_s);
+  for (std::vector<double>& dq : log.dq) {
+    double filtered = dq.empty() ? 0.0 : dq[0];
+    for (double& v : dq) v = filtered += share * (v - filtered);
+  }
 }
 
 void delay_torque(Log& log, int rows) {
@@ -76,6 +86,9 @@ void check_recording(int joints, double sample_period_s, const RecordingSpec& sp
                                                     sample_period_s, spec.stamp_resolution_s));
   if (!(spec.lost >= 0.0 && spec.lost < 1.0))
     bad_recording("lost", fmt::format("expected a share of the rows, 0 to below 1, found {}", spec.lost));
+  if (!(spec.velocity_filter_s >= 0.0 && std::isfinite(spec.velocity_filter_s)))
+    bad_recording("velocity_filter_s",
+                  fmt::format("expected a time that is not negative, found {}", spec.velocity_filter_s));
   if (spec.torque_late_rows < 0)
     bad_recording("torque_late_rows",
                   fmt::format("expected rows, 0 or more, found {}", spec.torque_late_rows));
@@ -84,6 +97,7 @@ void check_recording(int joints, double sample_period_s, const RecordingSpec& sp
 
 Log recorded(Log exact, const RecordingSpec& spec, double sample_period_s, Random random) {
   if (spec.velocity == RecordedVelocity::difference) differ_velocity(exact, sample_period_s);
+  if (spec.velocity_filter_s > 0.0) filter_velocity(exact, spec.velocity_filter_s, sample_period_s);
   if (spec.torque_late_rows > 0) delay_torque(exact, spec.torque_late_rows);
   round_torque(exact, spec.torque_resolution);
   Random losses(random.bits());  // independent of how many numbers the stamps draw

@@ -22,6 +22,7 @@ struct RecordingSpec {
   int torque_late_rows = 0;         ///< a row has the torque of the row this number of rows before
   std::vector<double> torque_resolution{};  ///< N m or N, one number for each joint; 0 or empty: exact
   RecordedVelocity velocity = RecordedVelocity::measured;
+  double velocity_filter_s = 0.0;  ///< time constant of a low pass of first order on that velocity; 0: none
 };
 
 /// Throws Error(usage) naming the key if `spec` does not fit so many joints or that sample period.

@@ -64,6 +64,7 @@ RecordingSpec read_recording(const TomlTable& table, int joints, RecordingSpec r
   recording.stamp_resolution_s = table.number("stamp_resolution_s", recording.stamp_resolution_s);
   recording.lost = table.number("lost", recording.lost);
   recording.torque_late_rows = small_integer(table, "torque_late_rows", recording.torque_late_rows);
+  recording.velocity_filter_s = table.number("velocity_filter_s", recording.velocity_filter_s);
   read_list(table, "torque_resolution", joints, recording.torque_resolution);
   if (table.has("velocity"))
     recording.velocity = table.choice("velocity", {"measured", "difference"}) == "difference"

@@ -94,7 +94,16 @@ def wobbly(robot, day, rng):
     }
 
 
-CELLS = {"springs": springs, "pieces": pieces, "sticky": sticky, "wobbly": wobbly}
+def filtered(robot, day, rng):
+    """Velocity by difference of fine codes through a low pass of 10 ms, as controllers log it."""
+    return {
+        "sample_period_s": 0.002, "control_period_s": 0.002,
+        "noise": {"q": [1e-5, 1e-5, 2e-6], "q_resolution": [2e-5, 2e-5, 5e-6]},
+        "recording": {"velocity": '"difference"', "velocity_filter_s": 0.01},
+    }
+
+
+CELLS = {"springs": springs, "pieces": pieces, "sticky": sticky, "wobbly": wobbly, "filtered": filtered}
 
 # kind: sizes by joint in shares of the rating (bias, drift: rad, m; payload: kg of the last link), more keys
 FAULTS = {

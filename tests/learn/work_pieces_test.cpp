@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <deque>
+#include <numeric>
 
+#include "lib/identify/days/fit_days.hpp"
 #include "lib/learn/explained_robot.hpp"
 #include "lib/learn/without_work_piece.hpp"
 #include "tests/learn/small_robot.hpp"
@@ -66,6 +68,32 @@ TEST(WorkPieces, TheRobotIsIdentifiedWithoutThem) {
   EXPECT_NEAR(std::get<BalanceModel>(robot.model.explain.robot).piece_kg, kPiece_kg, 0.03);
   EXPECT_GT(with_pieces, 2.2) << "the piece is carried half of the time";
   EXPECT_NEAR(mass_of(robot.identification), 2.0, 0.05);
+}
+
+TEST(WorkPieces, StaticFrictionThatHoldsADriveAtRestIsNone) {
+  Robot geared = small_robot();
+  geared.chain.rotor_inertia = {20.0};
+  const double friction = geared.chain.friction[0].coulomb, held[] = {0.9, -0.9, 0.8};  // share, by day
+  std::deque<MemorySource> sources;
+  std::vector<LogSource*> logs;
+  for (int day = 0; day < 3; ++day) {
+    Log log = simulate(geared, small_run(20.0), 101 + day).log;
+    const double weight = std::reduce(log.tau[0].begin(), log.tau[0].end()) / log.rows();
+    for (int stay = 0; stay < 4; ++stay) {
+      const int last = log.rows() - 1;
+      const double start_s = log.time[last] + 0.3;  // without rows, so that no kernel joins motion and rest
+      for (int k = 0; k < 250; ++k) {
+        log.time.push_back(start_s + 0.01 * k);
+        log.q[0].push_back(log.q[0][last]);
+        log.dq[0].push_back(0.0);
+        log.tau[0].push_back(weight + (stay % 2 == 0 ? 1.0 : -1.0) * held[day] * friction);
+      }
+    }
+    logs.push_back(&sources.emplace_back(std::move(log), "day.csv"));
+  }
+  const BalanceModel model = fit_days(logs, parameter_space(unknown_small_robot()), TorqueTiming::held).model;
+  EXPECT_GT(model.stiction[0], 0.8 * friction);
+  EXPECT_EQ(model.piece_kg, 0.0);
 }
 
 /// What a robot that was learned without a work piece says of a log in which one is carried.

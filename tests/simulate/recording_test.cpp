@@ -105,6 +105,16 @@ TEST(Recording, VelocityIsTheDifferenceOfPositions) {
   }
 }
 
+TEST(Recording, AFilteredVelocityIsLateByItsTimeConstant) {
+  Log ramp = exact_log();
+  for (int k = 0; k < ramp.rows(); ++k) ramp.dq[0][k] = 2.0 * k * kPeriod_s;
+  const double late_s = 4.0 * kPeriod_s;
+  const Log log = recorded(ramp, {.velocity_filter_s = late_s}, kPeriod_s, Random(1));
+  // Of inputs held between rows: 1 / (exp(period / late) - 1) rows.
+  const double rows = 1.0 / (std::exp(kPeriod_s / late_s) - 1.0);
+  EXPECT_NEAR(log.dq[0].back(), 2.0 * (ramp.rows() - 1 - rows) * kPeriod_s, 1e-9);
+}
+
 TEST(Recording, OfARunChangesNoTruth) {
   SimulationSpec spec = with_fault(FaultKind::torque_loss, 1, 1.0, 0.5);
   spec.noise.q_resolution = {1e-4, 1e-4, 1e-5};
@@ -135,6 +145,7 @@ TEST(Recording, IsRefusedWhenItCannotBe) {
   expect_refused({.lost = 1.0}, "lost");
   expect_refused({.lost = -0.1}, "lost");
   expect_refused({.torque_late_rows = -1}, "torque_late_rows");
+  expect_refused({.velocity_filter_s = -0.01}, "velocity_filter_s");
   expect_refused({.torque_resolution = {-1.0}}, "torque_resolution");
   expect_refused({.torque_resolution = {1.0, 1.0}}, "torque_resolution");
 }

@@ -56,6 +56,7 @@ jitter_s = 2e-4
 stamp_resolution_s = 1e-3
 lost = 0.002
 torque_late_rows = 2
+velocity_filter_s = 0.005
 torque_resolution = [0.1, 0.1, 0.5]
 velocity = "difference")");
   EXPECT_EQ(spec.work_piece.mass, 0.6);
@@ -67,6 +68,7 @@ velocity = "difference")");
   EXPECT_EQ(spec.recording.stamp_resolution_s, 1e-3);
   EXPECT_EQ(spec.recording.lost, 0.002);
   EXPECT_EQ(spec.recording.torque_late_rows, 2);
+  EXPECT_EQ(spec.recording.velocity_filter_s, 0.005);
   EXPECT_EQ(spec.recording.torque_resolution, (Numbers{0.1, 0.1, 0.5}));
   EXPECT_EQ(spec.recording.velocity, RecordedVelocity::difference);
 }
@@ -99,7 +101,8 @@ TEST(SpecSections, WhatIsNoSuchValueIsNamed) {
   for (const char* key :
        {"stick_slip.share", "stick_slip.speed", "warm_up.share", "warm_up.time_s", "work_piece.mass",
         "work_piece.carried_s", "work_piece.empty_s", "recording.jitter_s", "recording.stamp_resolution_s",
-        "recording.lost", "recording.torque_late_rows", "recording.torque_resolution", "recording.velocity"})
+        "recording.lost", "recording.torque_late_rows", "recording.torque_resolution", "recording.velocity",
+        "recording.velocity_filter_s"})
     expect_error(std::string(key) + " = \"much\"", {"line 3", key});
   expect_error("[recording]\nvelocity = \"differ\"", {"recording.velocity", "difference"});
   expect_error("[recording]\njitter = 1e-3", {"recording.jitter", "did you mean \"jitter_s\""});

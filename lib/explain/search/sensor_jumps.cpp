@@ -25,7 +25,7 @@ constexpr int kManyRepeats = 12;       // samples: if healthy positions repeat s
 /// Returns whether the velocity of joint `j` (from 0) does not show steps of its position.
 bool is_from_positions(const LogFit& fit, int j) {
   const RowSetting& setting = fit.model().setting;
-  return setting.velocity_is_difference || fit.log().dq.rows() == 0 || setting.fusion[j] < kFewWaves;
+  return !setting.measures_velocity(j) || fit.log().dq.rows() == 0 || setting.fusion[j] < kFewWaves;
 }
 
 /// Returns the deviation of each step between samples from a smooth motion, rad or m.

@@ -10,7 +10,7 @@
 #include "lib/balance/rest.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/log/difference_velocity.hpp"
+#include "lib/log/derived_velocity.hpp"
 
 namespace faultline {
 namespace {
@@ -22,26 +22,13 @@ constexpr double kMostDecay = 5.0;    // samples^-1: crossover of the fusion bey
 constexpr double kLeastDecay = 1e-3;  // the same, below which a velocity without noise would never forget
 constexpr double kDelayPrior = 4.0;   // ridge on each delay, beside rows in N m or N: weak against any motion
 constexpr double kFewestAtRest = 20.0;     // rows at rest, and in motion, to decide whether a joint sticks
-constexpr double kSticks = 3.0;            // least ratio of the residuals at rest and in motion, rms
+constexpr double kSticks = 1.6;            // least ratio of the residuals at rest and in motion, rms
 constexpr double kSticksOfFriction = 0.2;  // least ratio of the residual at rest to the Coulomb friction
 constexpr double kMostAtRest = 0.995,
                  kStictionSlack = 1.25;  // quantile of the residuals at rest, and times it
 constexpr double kSlightRidge = 1e-9;  // relative, on the diagonal: columns that the motions do not separate
 constexpr std::array kLags{-1, 0, 1, 2};                         // samples, tried for RowSetting::torque_lag
 constexpr std::array kWidths{.003, .006, .01, .016, .025, .05};  // rad/s or m/s, of friction
-
-/// Whether the log has no velocity, or one that is the difference of the positions, so not independent.
-bool holds_no_velocity(const UniformLog& log) {
-  if (log.dq.rows() == 0) return true;
-  std::vector<double> time(log.rows());
-  for (int k = 0; k < log.rows(); ++k) time[k] = log.time_s(k);
-  const auto column = [&](const MatrixXd& values, int j) {
-    return std::span<const double>(values.col(j).data(), static_cast<std::size_t>(values.rows()));
-  };
-  for (int j = 0; j < log.joints(); ++j)
-    if (!is_difference(time, column(log.q, j), column(log.dq, j))) return false;
-  return true;
-}
 
 /// Returns the rows of the logs without lost ones and without the balances of resting joints that stick.
 std::vector<BalanceRows> rows_of(const std::vector<UniformLog>& logs, const RowSetting& setting,
@@ -98,8 +85,19 @@ VectorXd left_rms(const std::vector<BalanceRows>& rows, const VectorXd& theta, i
 
 }  // namespace
 
-bool hold_no_velocity(const std::vector<UniformLog>& logs) {
-  return std::all_of(logs.begin(), logs.end(), holds_no_velocity);
+std::vector<bool> derived_velocities(const std::vector<UniformLog>& logs) {
+  std::vector<bool> out(logs.front().joints(), false);
+  for (const UniformLog& log : logs) {
+    if (log.dq.rows() == 0) continue;
+    std::vector<double> time(log.rows());
+    for (int k = 0; k < log.rows(); ++k) time[k] = log.time_s(k);
+    const auto column = [&](const MatrixXd& values, int j) {
+      return std::span<const double>(values.col(j).data(), time.size());
+    };
+    for (int j = 0; j < log.joints(); ++j)
+      out[j] = out[j] || is_derived(time, column(log.q, j), column(log.dq, j));
+  }
+  return out;
 }
 
 RowSetting draft_setting(const std::vector<UniformLog>& logs, double kernel_s, double row_s) {
@@ -166,7 +164,9 @@ VectorXd static_friction(const std::vector<UniformLog>& logs, const BalanceModel
   BalanceModel all_stick = model;
   all_stick.stiction = VectorXd::Ones(n);
   const std::vector<BalanceRows> moving = rows_of(logs, model.setting, all_stick);
-  const VectorXd theta = plain_fit(moving, layout, rigid_columns_used(model.rigid, layout), model.torque_rms);
+  std::vector<bool> used = rigid_columns_used(model.rigid, layout);
+  for (int p = 0; p < layout.base; ++p) used[p] = true;  // rotors, too: they act in motion alone
+  const VectorXd theta = plain_fit(moving, layout, used, model.torque_rms);
   std::vector<RestAndMotion> joint(n);
   for (const UniformLog& log : logs) {
     const BalanceRows rows = balance_rows(log, model.setting, model.rigid, {});

@@ -11,9 +11,9 @@ namespace faultline {
 /// Prior standard deviation of the delay of one joint's torque beyond the lag of all torques, samples.
 inline constexpr double kDelayStd = 0.3;
 
-/// Whether no log has an independent velocity: it has none, or the difference of the positions. `logs` have
-/// the samples as recorded, not means.
-bool hold_no_velocity(const std::vector<UniformLog>& logs);
+/// Returns by joint whether a log shows that its velocity was computed from its position (is_derived()).
+/// `logs` have the samples as recorded, not means.
+std::vector<bool> derived_velocities(const std::vector<UniformLog>& logs);
 
 /// Returns the row setting that follows from the logs alone: rate, decimation, and the weight of the logged
 /// velocity by its noise.

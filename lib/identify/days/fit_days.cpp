@@ -97,7 +97,7 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
                      TorqueTiming torque_between_samples) {
   const bool is_held = torque_between_samples == TorqueTiming::held;
   std::vector<UniformLog> uniform = uniform_logs(logs);
-  const bool without_velocity = hold_no_velocity(uniform);
+  const std::vector<bool> derived = derived_velocities(uniform);
   const int samples = samples_averaged(uniform.front().period_s);
   for (UniformLog& log : uniform) log = averaged(std::move(log), samples, is_held);
   DayDraft draft;
@@ -106,7 +106,8 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   m.payload = payload_columns(space);
   const double kernel = uniform.front().period_s < kHighRate_s ? kKernelAtHighRate_s : kKernel_s;
   m.setting = draft_setting(uniform, kernel, kRowKernels * kernel);
-  m.setting.velocity_is_difference = without_velocity;
+  for (int j = 0; j < m.setting.joints(); ++j)
+    if (derived[j]) m.setting.fusion[j] = 0.0;
   m.setting.torque_is_held = is_held;
   m.setting.averaged = samples;
   for (const UniformLog& log : uniform) draft.days.push_back({.log = log});

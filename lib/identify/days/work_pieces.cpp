@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/core/statistics.hpp"
+#include "lib/identify/days/draft_rows.hpp"
 
 namespace faultline {
 namespace {
@@ -15,9 +16,10 @@ using Eigen::VectorXd;
 constexpr int kPieceRows = 20;       // rows over which a mass is estimated
 constexpr int kFewestWindows = 6;    // of a day: fewer cannot show two groups of masses
 constexpr double kPieceShare = 0.1;  // of the carried mass: least mass of a work piece
-constexpr double kClearStep = 1.5;   // least step between the groups, in standard deviations within a group
-constexpr double kAlikeDays = 0.5;   // of the step: largest scatter of the steps between days
-constexpr double kWeight = 9.81;     // N: weight of 1 kg
+constexpr double kClearStep =
+    4.0;  // the same, in standard deviations within a group; one group, split, has 2.2
+constexpr double kAlikeDays = 0.5;  // of the step: largest scatter of the steps between days
+constexpr double kWeight = 9.81;    // N: weight of 1 kg
 // Standard deviation of the rows on a path: rough at first, then by the noise, kLeastPathShare at least.
 constexpr double kRoughShare = 0.25, kLeastPathShare = 0.02,
                  kNoiseShare = 0.3;        // of the work piece's weight, and of the residual
@@ -31,21 +33,35 @@ struct Groups {
   double low = 0.0, step = 0.0, ratio = 0.0;
 };
 
-/// Returns the mass at the tip, kg, that best explains each stretch of kPieceRows rows.
-std::vector<double> masses_of(const HealthyDay& day, const BalanceModel& m) {
-  const MatrixXd left = day.rows.torque - torque_of(day.rows, m.theta);
+/// Returns the mass at the tip, kg, that best explains each stretch of kPieceRows rows, without joints that
+/// static friction holds.
+std::vector<double> masses_of(const HealthyDay& day, const BalanceModel& m, const VectorXd& theta) {
+  const MatrixXd left = day.rows.torque - torque_of(day.rows, theta);
   std::vector<double> out;
   for (int w = 0; w < day.rows.rows() / kPieceRows; ++w) {
     double product = 0.0, square = 0.0;
+    int rows = 0;
     for (int j = 0; j < m.joints(); ++j) {
       if (!carries_weight(m.rigid, j)) continue;
-      const auto x = day.tip.col(j).segment(w * kPieceRows, kPieceRows);
-      product += x.dot(left.col(j).segment(w * kPieceRows, kPieceRows));
-      square += x.squaredNorm();
+      for (int k = w * kPieceRows; k < (w + 1) * kPieceRows; ++k) {
+        if (day.rows.rests(k, j)) continue;
+        product += day.tip(k, j) * left(k, j);
+        square += day.tip(k, j) * day.tip(k, j);
+        ++rows;
+      }
     }
-    if (square > 0.0) out.push_back(product / square);
+    if (2 * rows >= kPieceRows) out.push_back(product / square);
   }
   return out;
+}
+
+/// Returns the parameters of a robot with rotors, without which an acceleration looks like a mass.
+VectorXd fit_with_rotors(const DayDraft& draft) {
+  std::vector<BalanceRows> rows;
+  for (const HealthyDay& day : draft.days) rows.push_back(without_balances(day.rows, day.rows.at_rest));
+  std::vector<bool> used = draft.used;
+  std::fill_n(used.begin(), draft.model.rigid.base(), true);
+  return plain_fit(rows, draft.model.layout(), used, draft.model.torque_rms);
 }
 
 Groups groups_of(std::vector<double> masses) {
@@ -83,8 +99,9 @@ double carried_kg(const DayDraft& draft) {
 
 DayDraft with_first_piece(DayDraft draft) {
   std::vector<double> low, step, ratio;
+  const VectorXd theta = fit_with_rotors(draft);
   for (const HealthyDay& day : draft.days) {
-    std::vector<double> masses = masses_of(day, draft.model);
+    std::vector<double> masses = masses_of(day, draft.model, theta);
     if (masses.size() < kFewestWindows) return draft;
     const Groups groups = groups_of(std::move(masses));
     low.push_back(groups.low);
@@ -110,7 +127,8 @@ DayDraft with_piece_paths(DayDraft draft, bool is_rough) {
   std::vector<MatrixXd> left;
   for (const HealthyDay& day : draft.days) {
     left.push_back(day.rows.torque - torque_of(day.rows, m.theta) - effect_torque(day));
-    for (int k = 0; k < day.rows.rows(); ++k) size.push_back(std::abs(left.back()(k, m.joints() - 1)));
+    for (int k = 0; k < day.rows.rows(); ++k)
+      if (!day.rows.rests(k, m.joints() - 1)) size.push_back(std::abs(left.back()(k, m.joints() - 1)));
   }
   const double weight = m.piece_kg * kWeight, noise = kNormalSpread * upper_median(std::move(size));
   const double std =
@@ -120,14 +138,15 @@ DayDraft with_piece_paths(DayDraft draft, bool is_rough) {
     HealthyDay& day = draft.days[d];
     MatrixXd deviation = MatrixXd::Constant(day.rows.rows(), m.joints(), kCountsForNothing);
     for (int j = 0; j < m.joints(); ++j)
-      if (carries_weight(m.rigid, j)) deviation.col(j).setConstant(std);
+      for (int k = 0; k < day.rows.rows(); ++k)
+        if (carries_weight(m.rigid, j) && !day.rows.rests(k, j)) deviation(k, j) = std;
     day.path = piece_path(left[d], m.piece_kg * day.tip, deviation);
     day.piece.setZero();
     for (int k = 0; k < day.rows.rows(); ++k) {
       if (day.path[k] == 0) continue;
       day.piece.row(k) = m.piece_kg * day.tip.row(k);
       for (int j = 0; j < m.joints(); ++j) {
-        if (!carries_weight(m.rigid, j)) continue;
+        if (!carries_weight(m.rigid, j) || day.rows.rests(k, j)) continue;
         product += day.tip(k, j) * left[d](k, j);
         square += day.tip(k, j) * day.tip(k, j);
       }

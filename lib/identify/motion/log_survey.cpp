@@ -15,7 +15,7 @@
 #include "lib/core/make_issue.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/motion/sample_outliers.hpp"
-#include "lib/log/difference_velocity.hpp"
+#include "lib/log/derived_velocity.hpp"
 
 namespace faultline {
 namespace {
@@ -64,11 +64,11 @@ class RepeatCounter {
   std::vector<double> ratios_;
 };
 
-bool dq_is_difference(const JointMotion& m) {
+bool dq_is_derived(const JointMotion& m) {
   auto span = [](const Eigen::VectorXd& v) {
     return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
   };
-  return is_difference(span(m.time), span(m.q), span(m.dq));
+  return is_derived(span(m.time), span(m.q), span(m.dq));
 }
 
 /// Returns rows in the middle of a stretch, enough to estimate noise.
@@ -210,14 +210,14 @@ LogSurvey survey_log(LogSource& source, int joints) {
   for (Busiest& b : busiest) {
     if (b.motion.rows() > 0) b.motion = middle_of(b.motion);
     if (b.motion.rows() == 0) {
-      survey.dq_is_difference.push_back(0);
+      survey.dq_is_derived.push_back(0);
       survey.velocity.emplace_back();
       survey.noise.emplace_back();
       continue;
     }
-    survey.dq_is_difference.push_back(dq_is_difference(b.motion) ? 1 : 0);
+    survey.dq_is_derived.push_back(dq_is_derived(b.motion) ? 1 : 0);
     survey.velocity.emplace_back();
-    if (b.motion.dq.size() > 0 && !survey.dq_is_difference.back())
+    if (b.motion.dq.size() > 0 && !survey.dq_is_derived.back())
       survey.velocity.back() = velocity_agreement(b.motion);
     if (!survey.measures_velocity(static_cast<int>(survey.velocity.size()) - 1)) b.motion.dq.resize(0);
     if (survey.repeated_rows != RepeatedRows::none) leave_out_repeats(b.motion);
@@ -243,12 +243,15 @@ Issues survey_issues(const LogSurvey& survey) {
       note(fmt::format("velocity_disagrees_{}", j + 1), Severity::severe,
            disagreement_text(survey.velocity[j], static_cast<int>(j) + 1));
   std::vector<int> derived;
-  for (std::size_t j = 0; j < survey.dq_is_difference.size(); ++j)
-    if (survey.dq_is_difference[j]) derived.push_back(static_cast<int>(j) + 1);
+  for (std::size_t j = 0; j < survey.dq_is_derived.size(); ++j)
+    if (survey.dq_is_derived[j]) derived.push_back(static_cast<int>(j) + 1);
   if (!derived.empty())
-    note("velocity_from_position", Severity::note,
-         fmt::format("dq of joint {} is a difference of q, not a measurement of its own; it was left out",
-                     fmt::join(derived, ", ")));
+    note(
+        "velocity_from_position", Severity::note,
+        fmt::format(
+            "dq of joint {} is computed from q (a difference, or filtered and late), not a measurement of its "
+            "own; it was left out",
+            fmt::join(derived, ", ")));
   return issues;
 }
 

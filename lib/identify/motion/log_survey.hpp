@@ -48,13 +48,13 @@ struct LogSurvey {
   StretchSummary summary;
   RepeatedRows repeated_rows = RepeatedRows::none;
   double repeated_share = 0.0;                ///< share of the rows in motion that repeat the row before
-  std::vector<char> dq_is_difference;         ///< by joint: its dq is computed from q, not measured
+  std::vector<char> dq_is_derived;            ///< by joint: its dq is computed from q (is_derived())
   std::vector<DerivativeAgreement> velocity;  ///< by joint
   std::vector<MotionNoise> noise;             ///< by joint, from the stretch in which it moves most
   TorqueLimits torque_limits;
 
   /// Whether the joint's dq, if recorded, is an independent measurement.
-  bool measures_velocity(int joint) const { return !dq_is_difference[joint] && !velocity[joint].disagrees(); }
+  bool measures_velocity(int joint) const { return !dq_is_derived[joint] && !velocity[joint].disagrees(); }
 };
 
 /// Reads a log from its start. Throws Error(input) if it lacks torque or its joints differ in number.

@@ -42,7 +42,7 @@ Log with_rows_written_twice(const Log& log) {
 TEST(LogSurvey, AHealthyLogRepeatsNothingAndMeasuresItsVelocity) {
   const LogSurvey s = survey(simulate_closed_form({}, {}));
   EXPECT_EQ(s.repeated_rows, RepeatedRows::none);
-  EXPECT_EQ(s.dq_is_difference, (std::vector<char>{0, 0, 0}));
+  EXPECT_EQ(s.dq_is_derived, (std::vector<char>{0, 0, 0}));
   EXPECT_NEAR(s.summary.period_s, 0.005, 1e-12);
   EXPECT_NEAR(s.noise[0].q_std / 1e-4, 1.0, 0.25);
   EXPECT_TRUE(survey_issues(s).empty());
@@ -76,7 +76,7 @@ TEST(LogSurvey, VelocityMadeOfPositionsIsNoMeasurement) {
   Log log = simulate_closed_form({}, {});
   for (int k = log.rows() - 1; k > 0; --k) log.dq[1][k] = (log.q[1][k] - log.q[1][k - 1]) / 0.005;
   const LogSurvey s = survey(log);
-  EXPECT_EQ(s.dq_is_difference, (std::vector<char>{0, 1, 0}));
+  EXPECT_EQ(s.dq_is_derived, (std::vector<char>{0, 1, 0}));
   EXPECT_NE(survey_issues(s).find("velocity_from_position"), nullptr);
 }
 

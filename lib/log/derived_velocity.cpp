@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "lib/log/derived_velocity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/core/statistics.hpp"
+
+namespace faultline {
+namespace {
+
+constexpr int kVelocityFewestRows = 8;
+constexpr std::size_t kEnoughRows = 1000;  // rows in motion that suffice
+constexpr double kSameAsDifference = 0.1;  // of the noise of a difference of q: largest distance of dq
+constexpr double kMostRows = 0.8;   // share of the rows that have to agree: next to lost rows, some do not
+constexpr double kBendGain = 20.0;  // a third difference has 1 + 9 + 9 + 1 times the variance of white noise
+constexpr double kHalfDifference_s = 0.012;    // half of a central difference, at least one row
+constexpr double kWidest = 1.5;                // times that: longer over lost rows
+constexpr double kSecondDifferenceGain = 6.0;  // a second difference has 1 + 4 + 1 times the variance
+constexpr double kOfMotion = 0.5;        // least share of the squared acceleration that is motion, not noise
+constexpr double kCertain = 6.0;         // standard deviations of a delay
+constexpr double kLeastDelay = 0.5;      // rows: less is the uncertainty of the time that a row belongs to
+constexpr double kMedianOfAbs = 0.6745;  // median of |x| over the standard deviation of a normal x
+
+struct Joint {
+  std::span<const double> time, q, dq;
+  double period = 0.0;
+
+  int rows() const { return static_cast<int>(q.size()); }
+};
+
+/// The rows between which a difference is taken, and whether its time is the period or the stamps.
+struct Form {
+  int back, ahead;
+  bool by_period;
+};
+
+/// Returns the distance of dq from a difference of q that kMostRows keep; infinity without motion.
+double distance(const Joint& m, const Form& form) {
+  std::vector<double> distances;
+  for (int k = 1; k + 1 < m.rows() && distances.size() < kEnoughRows; ++k) {
+    const double step = m.q[k + form.ahead] - m.q[k - form.back];
+    const double dt =
+        form.by_period ? (form.back + form.ahead) * m.period : m.time[k + form.ahead] - m.time[k - form.back];
+    if (step != 0.0 && dt > 0.0 && std::isfinite(m.dq[k] - step))
+      distances.push_back(std::abs(m.dq[k] - step / dt));
+  }
+  return distances.empty() ? INFINITY : lower_quantile(distances, kMostRows);
+}
+
+/// Estimates the white noise of values from their third differences.
+double white_noise(std::span<const double> values) {
+  std::vector<double> bends;
+  for (std::size_t k = 3; k < values.size(); ++k) {
+    const double bend = values[k] - values[k - 3] - 3.0 * (values[k - 1] - values[k - 2]);
+    if (std::isfinite(bend) && bend != 0.0) bends.push_back(std::abs(bend));
+  }
+  return bends.empty() ? 0.0 : upper_median(bends) / kMedianOfAbs / std::sqrt(kBendGain);
+}
+
+double usual_period(std::span<const double> time) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < time.size(); ++k) steps.push_back(time[k] - time[k - 1]);
+  return upper_median(steps);
+}
+
+}  // namespace
+
+bool is_difference(std::span<const double> time, std::span<const double> q, std::span<const double> dq) {
+  if (dq.size() != q.size() || q.size() < kVelocityFewestRows) return false;
+  const Joint joint{time, q, dq, usual_period(time)};
+  if (!(joint.period > 0.0)) return false;
+  const double close = kSameAsDifference * white_noise(q) / joint.period;
+  for (const bool by_period : {true, false})
+    for (const Form& form : {Form{1, 0, by_period}, Form{1, 1, by_period}, Form{0, 1, by_period}})
+      if (distance(joint, form) < close) return true;
+  return false;
+}
+
+VelocityDelay velocity_delay(std::span<const double> time, std::span<const double> q,
+                             std::span<const double> dq) {
+  if (dq.size() != q.size() || q.size() < kVelocityFewestRows) return {};
+  const double period = usual_period(time);
+  if (!(period > 0.0)) return {};
+  const auto half = static_cast<std::size_t>(std::max(1L, std::lround(kHalfDifference_s / period)));
+  const double span_s = static_cast<double>(half) * period, widest_s = 2.0 * kWidest * span_s;
+  double rows = 0.0, squares = 0.0, products = 0.0, off_squares = 0.0;
+  for (std::size_t k = half; k + half < q.size(); ++k) {
+    const double before_s = time[k] - time[k - half], after_s = time[k + half] - time[k];
+    const double before = (q[k] - q[k - half]) / before_s, after = (q[k + half] - q[k]) / after_s;
+    const double acceleration = 2.0 * (after - before) / (before_s + after_s);
+    const double off = dq[k] - (q[k + half] - q[k - half]) / (before_s + after_s);
+    if (before_s + after_s > widest_s || !std::isfinite(acceleration) || !std::isfinite(off)) continue;
+    rows += 1.0;
+    squares += acceleration * acceleration;
+    products += off * acceleration;
+    off_squares += off * off;
+  }
+  const double noise = white_noise(q) / (span_s * span_s);
+  const double of_motion = squares - rows * kSecondDifferenceGain * noise * noise;
+  if (!(of_motion > kOfMotion * squares)) return {};
+  const double delay_s = -products / of_motion;
+  const double left = std::max(off_squares - delay_s * delay_s * of_motion, 0.0) / rows;
+  const double independent = rows / static_cast<double>(2 * half);  // differences overlap
+  const double std_s = std::sqrt(left * rows / (independent * of_motion));
+  const double error = std::abs(delay_s) * std::sqrt(of_motion / rows);
+  return {delay_s,
+          std::abs(delay_s) > std::max(kCertain * std_s, kLeastDelay * period) && error > white_noise(dq)};
+}
+
+bool is_derived(std::span<const double> time, std::span<const double> q, std::span<const double> dq) {
+  return is_difference(time, q, dq) || velocity_delay(time, q, dq).matters;
+}
+
+}  // namespace faultline
