@@ -16,8 +16,8 @@ using Eigen::VectorXd;
 constexpr int kPieceRows = 20;       // rows over which a mass is estimated
 constexpr int kFewestWindows = 6;    // of a day: fewer cannot show two groups of masses
 constexpr double kPieceShare = 0.1;  // of the carried mass: least mass of a work piece
-constexpr double kClearStep =
-    4.0;  // the same, in standard deviations within a group; one group, split, has 2.2
+// Least step between the groups, in standard deviations within one; a single group, split, has 2.2.
+constexpr double kClearStep = 4.0;
 constexpr double kAlikeDays = 0.5;  // of the step: largest scatter of the steps between days
 constexpr double kWeight = 9.81;    // N: weight of 1 kg
 // Standard deviation of the rows on a path: rough at first, then by the noise, kLeastPathShare at least.

@@ -16,6 +16,7 @@
 #include "lib/core/statistics.hpp"
 #include "lib/identify/motion/sample_outliers.hpp"
 #include "lib/log/derived_velocity.hpp"
+#include "lib/log/velocity_check.hpp"
 
 namespace faultline {
 namespace {
@@ -112,20 +113,18 @@ bool is_near(double factor, double known) {
   return std::abs(elementary::log(std::abs(factor) / known)) < kNear;
 }
 
-/// `motion` must have a velocity.
+/// Compares by the change of position over windows, which neither noise nor a smoother bends. `motion` must
+/// have a velocity.
 DerivativeAgreement velocity_agreement(const JointMotion& motion) {
-  JointMotion alone = motion;
-  alone.dq.resize(0);
-  const Eigen::VectorXd derived = smooth_motion(alone, fit_motion_noise(alone)).dq;
-  double dd = 0.0, dm = 0.0, mm = 0.0;
-  for (int k = 0; k < motion.rows(); ++k) {
-    if (motion.dq_off[k]) continue;
-    dd += derived[k] * derived[k];
-    dm += derived[k] * motion.dq[k];
-    mm += motion.dq[k] * motion.dq[k];
-  }
-  if (dd <= 0.0 || mm <= 0.0) return {};
-  return {dm / dd, dm / std::sqrt(dd * mm)};
+  const auto values = [](const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
+  std::vector<double> q = values(motion.q), dq = values(motion.dq);
+  for (int k = 0; k < motion.rows(); ++k)
+    if (motion.q_off[k] || motion.dq_off[k]) q[k] = dq[k] = std::nan("");
+  VelocityCheck check;
+  check.add(values(motion.time), q, dq);
+  const VelocityAgreement agreement = check.result();
+  if (agreement.verdict == VelocityVerdict::not_judged || agreement.factor == 0.0) return {};
+  return {1.0 / agreement.factor, agreement.correlation};
 }
 
 std::string channel(int joint) { return fmt::format("tau{}", joint + 1); }
@@ -208,7 +207,6 @@ LogSurvey survey_log(LogSource& source, int joints) {
   survey.repeated_rows = repeats.kind();
   survey.repeated_share = repeats.share();
   for (Busiest& b : busiest) {
-    if (b.motion.rows() > 0) b.motion = middle_of(b.motion);
     if (b.motion.rows() == 0) {
       survey.dq_is_derived.push_back(0);
       survey.velocity.emplace_back();
@@ -220,6 +218,7 @@ LogSurvey survey_log(LogSource& source, int joints) {
     if (b.motion.dq.size() > 0 && !survey.dq_is_derived.back())
       survey.velocity.back() = velocity_agreement(b.motion);
     if (!survey.measures_velocity(static_cast<int>(survey.velocity.size()) - 1)) b.motion.dq.resize(0);
+    b.motion = middle_of(b.motion);
     if (survey.repeated_rows != RepeatedRows::none) leave_out_repeats(b.motion);
     survey.noise.push_back(fit_motion_noise(b.motion));
   }
