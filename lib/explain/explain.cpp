@@ -7,6 +7,7 @@
 #include <set>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/hypothesis.hpp"
 #include "lib/explain/hypothesis_prices.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
@@ -101,8 +102,12 @@ void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change,
     std::vector<Candidate> drifts = of(all, FaultKind::sensor_drift, joint);
     if (drifts.size() > 3) drifts.resize(3);
     for (const Candidate& c : drifts) bench.go_from(c);
-    for (std::size_t k = 0; k < std::min(kOnsetsOfDrifts, common.size()); ++k)
-      bench.go({FaultKind::sensor_drift, joint, common[k]});
+    // Sticking friction gives the likelihood many maxima over the size: it starts from that of the search.
+    Candidate drift = drifts.empty() ? Candidate{.kind = FaultKind::sensor_drift, .joint = joint} : drifts[0];
+    for (std::size_t k = 0; k < std::min(kOnsetsOfDrifts, common.size()); ++k) {
+      drift.onset_s = common[k];
+      bench.go_from(drift);
+    }
     for (const Candidate& c : of(all, FaultKind::sensor_bias, joint)) bench.go_from(c);
     const std::vector<Candidate> locks = of(all, FaultKind::locked, joint);
     for (const double t : onsets_of(locks, common, kOnsetsForAll)) bench.go({FaultKind::locked, joint, t});
@@ -147,6 +152,21 @@ bool stands_out(double free_gain, std::vector<Candidate> found, double least_evi
     const FaultHypothesis* h = bench.go_from(c);
     return h != nullptr && h->gain > hidden;
   });
+}
+
+/// Returns the kinds that resemble a fault in the rows of its joint: they are judged at its onset and end. A
+/// joint at rest is locked, or its encoder is stuck. A short disturbance of the torque is a push, a moment
+/// without torque (a joint that falls to its end stop), or an offset of the torque.
+std::vector<FaultKind> rivals_of(const FaultClaim& claim) {
+  const FaultKind kind = column_kind(claim.kind);
+  std::vector<FaultKind> alike = {FaultKind::locked, FaultKind::stuck_encoder};
+  if (kind != FaultKind::locked && kind != FaultKind::stuck_encoder) {
+    alike = {FaultKind::collision, FaultKind::torque_loss, FaultKind::torque_sensor_error};
+    if (claim.end_s - claim.onset_s > kLongestBlow_s || std::ranges::find(alike, kind) == alike.end())
+      return {};
+  }
+  std::erase(alike, kind);
+  return alike;
 }
 
 /// Returns whether the rows of some joint have much less noise, and those of none more.
@@ -200,17 +220,11 @@ LogExplanation explain_log(const LogFit& fit, double least_evidence) {
     if (h.gain >= std::max(kWorthRefining, kMayWin * best_gain(bench))) refine(h, bench);
   out.best = best_of_each(bench.judged);
   if (!out.best.empty()) {
-    FaultClaim other = out.best.front();
-    if (other.kind == FaultKind::locked || other.kind == FaultKind::stuck_encoder) {
-      other.kind = other.kind == FaultKind::locked ? FaultKind::stuck_encoder : FaultKind::locked;
-      bench.go(other);
-      out.best = best_of_each(bench.judged);
+    for (const FaultKind kind : rivals_of(out.best.front())) {
+      FaultClaim rival = out.best.front();
+      rival.kind = kind;
+      if (const FaultHypothesis* judged = bench.go(rival)) refine(FaultHypothesis(*judged), bench);
     }
-  }
-  if (!out.best.empty() && out.best.front().kind == FaultKind::collision) {
-    FaultClaim loss = out.best.front();  // a joint that falls to its end stop loses its torque for a moment
-    loss.kind = FaultKind::torque_loss;
-    if (const FaultHypothesis* judged = bench.go(loss)) refine(FaultHypothesis(*judged), bench);
     out.best = best_of_each(bench.judged);
   }
   if (!out.best.empty() && column_kind(out.best.front().kind) == FaultKind::torque_loss) {

@@ -2,11 +2,13 @@
 #include "lib/explain/judge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/false_position.hpp"
 #include "lib/explain/hypothesis.hpp"
 #include "lib/explain/hypothesis_prices.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
@@ -17,10 +19,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUsualBlow_s = 0.02;  // mean of the exponential prior of a collision's length
-constexpr int kReadingRounds = 3;      // rounds that estimate the size of a false reading
-constexpr double kSettled = 0.05;      // share of the size: a round that changes less is the last
-constexpr double kHopeless = -5.0;     // nats below which a false reading without a known size is dropped
 constexpr double kClippedDoubt = 0.02, kPriceOfClipping = 100.0;  // of the torque withheld (std); nats: rare
 constexpr double kLeastClip = 0.04;  // share of the greatest torque: a joint that gets less swings freely
 constexpr double kSurely = 4.0;      // standard deviations within which remaining friction may be negative
@@ -28,11 +26,14 @@ constexpr double kSurely = 4.0;      // standard deviations within which remaini
 constexpr int kSamplesBefore = 20;    // samples before an onset that show whether the joint comes to rest
 constexpr double kComesToRest = 0.3;  // share of them that repeat a code if the joint comes to rest
 constexpr double kJolt = 3.0;         // times the joint's usual torque: that of a halt
+constexpr std::array kHalts_s{0.0, 0.04, 0.08, 0.12, 0.2, 0.3};  // during which the brake of a lock slides
+constexpr double kSlidingBrake = 20.0;                           // nats: rare
 constexpr double kRests = 0.02;      // of the joint's greatest healthy speed: a joint at rest is slower (rms)
 constexpr double kSettles_s = 0.02;  // s after the onset until a locked joint stands still
-constexpr double kShakes = 0.05;     // share of the evidence of a lock that its shaking adds, at most
-constexpr double kCoupled = 0.1;     // share of a joint's usual torque that the motion of another joint gives
-constexpr double kYields = 2e-3;     // of a joint's range: a lock yields less to the torque
+constexpr double kStillVelocity = 0.1;  // of the noise of the velocity: a smaller change is none
+constexpr double kShakes = 0.05;        // share of the evidence of a lock that its shaking adds, at most
+constexpr double kCoupled = 0.1;  // share of a joint's usual torque that the motion of another joint gives
+constexpr double kYields = 2e-3;  // of a joint's range: a lock yields less to the torque
 
 /// Returns the compliance of a lock, rad per N m or m per N, by which its brake or jammed gear yields to the
 /// torque; 0 if the position follows the torque further, which no lock allows. `range` is that of healthy
@@ -83,17 +84,18 @@ Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
           first > from ? static_cast<double>(before) / (first - from) : 1.0};
 }
 
-/// Returns whether the measured velocity of a joint changes from onset to end and shows rest: a stuck encoder
-/// would repeat its velocity, too.
+/// Returns whether the measured velocity of a joint changes by its noise from onset to end and shows rest: a
+/// stuck encoder would repeat its velocity, too, or let it fade in a filter.
 bool velocity_shows_rest(const LogFit& fit, const FaultClaim& claim) {
   const UniformLog& log = fit.log();
   const int j = claim.joint - 1;
   if (log.dq.rows() == 0 || !fit.model().setting.measures_velocity(j)) return false;
+  const double still = kStillVelocity * fit.model().dq_noise[j];
   int samples = 0, same = 0;
   double square = 0.0;
   for (int k = 1; k < log.rows(); ++k) {
     if (log.time_s(k) < claim.onset_s + kSettles_s || log.time_s(k) >= claim.end_s) continue;
-    same += log.dq(k, j) == log.dq(k - 1, j);
+    same += std::abs(log.dq(k, j) - log.dq(k - 1, j)) <= still;
     square += Eigen::numext::abs2(log.dq(k, j));
     ++samples;
   }
@@ -130,13 +132,29 @@ double price_of_unseen_motion(const LogFit& fit, int j, const StackedMask& dropp
   return out;
 }
 
-/// Returns the rows within onset and end, at which the joint must stand still.
-std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim) {
+/// Returns the rows from `from_s` until the end of a claim, without those that its ends reach.
+std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim, double from_s) {
   const double reach = 3.0 * fit.model().setting.kernel_s + 0.02;
   std::vector<int> out;
   for (int k = 0; k < fit.count(); ++k)
-    if (fit.time_s()[k] > claim.onset_s + reach && fit.time_s()[k] < claim.end_s - reach) out.push_back(k);
+    if (fit.time_s()[k] > from_s + reach && fit.time_s()[k] < claim.end_s - reach) out.push_back(k);
   return out;
+}
+
+/// Returns the nats by which the positions speak against a lock, for the likeliest duration of its halt: a
+/// brake may slide before it holds, and each row in which it slides has a force of its own. Empty if too few
+/// rows show the joint at rest.
+std::optional<double> price_of_lock(const LogFit& fit, const FaultClaim& claim) {
+  std::optional<double> least;
+  for (const double halt_s : kHalts_s) {
+    const std::vector<int> rest = rows_within(fit, claim, claim.onset_s + halt_s);
+    if (rest.size() < 5) break;
+    const double slides = halt_s > 0.0 ? kSlidingBrake : 0.0;
+    const double price = price_of_motion(fit, claim.joint - 1, rest) + slides +
+                         kForcedRow * std::floor(halt_s / fit.model().setting.row_s());
+    least = std::min(price, least.value_or(price));
+  }
+  return least;
 }
 
 /// Returns the columns of an impulse on each other joint when a joint halts.
@@ -166,9 +184,9 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
   const bool telling = repeats_are_rare(m, j) && same_before < kComesToRest;
   double price = kForcedRow * lost;
   if (claim.kind == FaultKind::locked) {
-    const std::vector<int> within = rows_within(fit, claim);
-    if (within.size() < 5) return std::nullopt;
-    price = price_of_motion(fit, j, within) + kStillJoint;
+    const std::optional<double> moves = price_of_lock(fit, claim);
+    if (!moves) return std::nullopt;
+    price = *moves + kStillJoint;
     if (same > kStuckShare && telling) price += kRepeatedReading * samples;
   } else if (claim.kind == FaultKind::stuck_encoder) {
     price = kStillJoint + price_of_unseen_motion(fit, j, dropped);
@@ -223,20 +241,32 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
   return hypothesis(fit, claim, std::move(e), price);
 }
 
-/// Judges a force on all joints from onset to end. It is reported at the joint with the greatest force for
-/// its torque.
+/// Returns the columns of a force on one joint (from 0) among those of a force on all joints.
+FaultColumns of_one_joint(const FaultColumns& force, int joint) {
+  const std::vector<int> at = {joint, static_cast<int>(force.sizes()) / 2 + joint};
+  return {StackedColumns(force.column(Eigen::all, at)), force.variance(at)};
+}
+
+/// Judges a force from onset to end on all joints, and on the joint alone with the greatest force for its
+/// torque, at which it is reported. The likelier of the two.
 FaultHypothesis judge_force(const LogFit& fit, FaultClaim claim) {
   const FaultColumns columns = force_columns(fit.rows(), fit.model().setting, claim.onset_s, claim.end_s);
-  std::vector<VectorXd> starts;
-  if (fit.has_piece()) starts.push_back(VectorXd::Zero(columns.sizes()));
-  Explanation e = fit.explain_with_piece(fit.residual(), columns, starts, claim.onset_s);
+  const auto explained_by = [&](const FaultColumns& force) {
+    std::vector<VectorXd> starts;
+    if (fit.has_piece()) starts.push_back(VectorXd::Zero(force.sizes()));
+    return fit.explain_with_piece(fit.residual(), force, starts, claim.onset_s);
+  };
+  Explanation all = explained_by(columns);
   const int n = fit.joints();
-  (e.size.head(n) + e.size.tail(n))
-      .cwiseAbs2()
-      .cwiseQuotient(columns.variance.head(n))
-      .maxCoeff(&claim.joint);
-  ++claim.joint;
-  return hypothesis(fit, claim, std::move(e), (claim.end_s - claim.onset_s) / kUsualBlow_s);
+  int joint = 0;
+  (all.size.head(n) + all.size.tail(n)).cwiseAbs2().cwiseQuotient(columns.variance.head(n)).maxCoeff(&joint);
+  claim.joint = joint + 1;
+  Explanation one = explained_by(of_one_joint(columns, joint));
+  if (one.log_likelihood <= all.log_likelihood) return hypothesis(fit, claim, std::move(all), 0.0);
+  const Eigen::Vector2d size = one.size;
+  one.size = VectorXd::Zero(2 * n);
+  one.size(std::vector<int>{joint, n + joint}) = size;
+  return hypothesis(fit, claim, std::move(one), 0.0);
 }
 
 FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
@@ -251,79 +281,7 @@ FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
   return best;
 }
 
-/// Sizes of a false reading, rad or m; of a drift in each second.
-struct PositionErrorSize {
-  double usual = 0.0;  ///< prior standard deviation
-  double step = 0.0;   ///< of its numeric derivative
-};
-
-PositionErrorSize position_error_size(const LogFit& fit, const FaultClaim& claim) {
-  const bool slide = fit.model().rigid.chain.geometry[claim.joint - 1].kind == AxisKind::prismatic;
-  if (claim.kind == FaultKind::sensor_bias)
-    return slide ? PositionErrorSize{0.02, 2e-4} : PositionErrorSize{0.1, 1e-3};
-  return slide ? PositionErrorSize{0.03, 4e-4} : PositionErrorSize{0.1, 2e-3};
-}
-
-/// Judges a false reading: corrects the trajectory and computes the residual anew, linear in the size between
-/// the last two sizes (the secant method), until the size is settled. A claim without a size starts from
-/// zero.
-FaultHypothesis judge_position_error(const LogFit& fit, FaultClaim claim) {
-  const bool bias = claim.kind == FaultKind::sensor_bias;
-  const auto [usual, step] = position_error_size(fit, claim);
-  FaultHypothesis best;
-  best.gain = -std::numeric_limits<double>::infinity();
-  double size = claim.size.size() > 0 ? claim.size[0] : 0.0;
-  // A drift of size zero changes nothing; a jump of size zero still replaces velocities that are computed
-  // from the position.
-  Stacked at = size == 0.0 && !bias ? fit.residual() : residual_without(fit, claim, size),
-          slope = (at - residual_without(fit, claim, size + step)) / step;
-  for (int round = 0; round < kReadingRounds; ++round) {
-    const double doubt = size == 0.0 ? usual : 0.3 * std::abs(size) + 1e-5;
-    FaultColumns columns{StackedColumns(slope), VectorXd::Constant(1, doubt * doubt)};
-    std::vector<VectorXd> starts;
-    if (fit.has_piece()) starts.push_back(VectorXd::Zero(1));
-    Explanation e = fit.explain_with_piece(at, columns, starts, claim.onset_s);
-    // Replaces the prior about the size before by that of the size.
-    const double price = 0.5 * size * size / (usual * usual) + elementary::log(usual / doubt);
-    const double change = e.size[0];
-    FaultHypothesis h = hypothesis(fit, claim, std::move(e), price);
-    h.size = VectorXd::Constant(1, size + change);
-    if (h.gain > best.gain) best = std::move(h);
-    if (size == 0.0 && best.gain < kHopeless) break;
-    const bool settled = std::abs(change) < kSettled * std::abs(size);
-    const double moved =
-        size == 0.0 ? change : std::clamp(change, -0.5 * std::abs(size), 0.5 * std::abs(size));
-    if (settled || moved == 0.0 || round + 1 == kReadingRounds) break;
-    size += moved;
-    const Stacked next = residual_without(fit, claim, size);
-    slope = (at - next) / moved;
-    at = next;
-  }
-  best.at_onset = jump_evidence(fit, best);
-  best.gain += best.at_onset;
-  return best;
-}
-
-/// Judges a false position that the velocity shows, too, or does not if it is measured independently.
-FaultHypothesis judge_position(const LogFit& fit, FaultClaim claim) {
-  const bool is_one = fit.log().dq.rows() == 0 || !fit.model().setting.measures_velocity(claim.joint - 1);
-  FaultHypothesis best = judge_position_error(fit, claim);
-  if (claim.velocity_is_true || is_one) return best;
-  claim.velocity_is_true = true;
-  FaultHypothesis other = judge_position_error(fit, claim);
-  return other.gain > best.gain ? other : best;
-}
-
 }  // namespace
-
-FaultColumns columns_about_healthy(const LogFit& fit, const FaultClaim& claim) {
-  if (!falsifies_position(claim.kind)) return columns_of(fit, claim);
-  const auto [usual, step] = position_error_size(fit, claim);
-  const Stacked without =
-      claim.kind == FaultKind::sensor_bias ? residual_without(fit, claim, 0.0) : fit.residual();
-  return {StackedColumns((without - residual_without(fit, claim, step)) / step),
-          VectorXd::Constant(1, usual * usual)};
-}
 
 FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim) {
   claim.kind = FaultKind::unknown;
@@ -369,7 +327,7 @@ std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim)
       return judge_collision(fit, claim);
     case FaultKind::sensor_bias:
     case FaultKind::sensor_drift:
-      return judge_position(fit, claim);
+      return judge_false_position(fit, claim);
     case FaultKind::locked:
     case FaultKind::stuck_encoder:
     case FaultKind::unknown:

@@ -12,10 +12,6 @@ namespace faultline {
 /// lock in the last few rows.
 std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim);
 
-/// Returns the columns of a fault that has a size, with the prior variance of its sizes; those of a false
-/// reading are linearised about size zero.
-FaultColumns columns_about_healthy(const LogFit& fit, const FaultClaim& claim);
-
 /// Judges a drive that limits its torque, which is of no known kind and looks like the loss of a share of the
 /// torque: at joint, onset and end of the claim, with the limit that explains the log best.
 FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim);

@@ -14,12 +14,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSameFault_s = 0.3;    // s between two onsets of one kind and joint that are one fault
-constexpr double kLeastGain = 0.1;      // nats by which a move explains more
-constexpr double kLongestBlow_s = 1.2;  // of a collision: a longer force is another fault
-constexpr int kMostRefineMoves = 40;    // of an onset or an end: a size that grows could move it for ever
-constexpr double kFirstMove_s = 1.28;   // of an onset or an end; halved each time that nothing is gained
-constexpr double kStillEnough = 0.5;    // share of the evidence without an end that is kept with it, at least
+constexpr double kSameFault_s = 0.3;   // s between two onsets of one kind and joint that are one fault
+constexpr double kLeastGain = 0.1;     // nats by which a move explains more
+constexpr int kMostRefineMoves = 40;   // of an onset or an end: a size that grows could move it for ever
+constexpr double kFirstMove_s = 1.28;  // of an onset or an end; halved each time that nothing is gained
+constexpr double kStillEnough = 0.5;   // share of the evidence without an end that is kept with it, at least
 
 /// Returns whether the same fault is known from about this moment on, or as a drift that lasts: it does not
 /// begin twice.

@@ -202,7 +202,7 @@ TEST(ExplainLog, WhatIsLikeNoKindIsUnknown) {
 TEST(ExplainLog, AVibrationThatNoKnownFaultExplainsAtAllIsUnknown) {
   Log log = simulate_closed_form(of_day(0), run_of(16));
   for (int k = 0; k < log.rows(); ++k)
-    if (log.time[k] >= 4.0) log.tau[1][k] += std::sin(2.0 * M_PI * 17.0 * log.time[k]);
+    if (log.time[k] >= 4.0) log.tau[1][k] += 0.8 * std::sin(2.0 * M_PI * 17.0 * log.time[k]);
   const LogFit fit = fit_of(std::move(log));
   const LogExplanation e = explain_log(fit);
   ASSERT_TRUE(named_faults(e, limits(), log_evidence(fit, e), 1).empty());
@@ -246,6 +246,25 @@ TEST(ExplainLog, APushThatSwellsAndFadesIsACollision) {
   EXPECT_NEAR(fault->claim.end_s - fault->claim.onset_s, 0.8, 0.2);
 }
 
+/// A torque on joint 2 that the drive is spared from 4 s on.
+Log with_torque_on_joint_2(double end_s, std::uint64_t seed) {
+  return testing::changed(simulate_closed_form(of_day(0), run_of(seed)), 4.0, end_s,
+                          [](Log& log, int k) { log.tau[1][k] -= 2.5; });
+}
+
+TEST(ExplainLog, AConstantTorqueOnOneJointIsAPushIfItIsShort) {
+  const auto fault = decided(fit_of(with_torque_on_joint_2(4.3, 19)));
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2}));
+  EXPECT_NEAR(fault->claim.end_s, 4.3, 0.02);
+}
+
+TEST(ExplainLog, AConstantTorqueOnOneJointIsAnOffsetIfItLasts) {
+  const auto fault = decided(fit_of(with_torque_on_joint_2(6.5, 20)));
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_sensor_error, 2}));
+}
+
 TEST(ExplainLog, ADriveThatClipsIsUnknown) {
   ClosedFormRun run = run_of(22);
   run.clips_from_s = 3.0;
@@ -277,12 +296,35 @@ TEST(ExplainLog, AHaltThatShakesTheOtherJointsIsOneLock) {
   EXPECT_NEAR(log.faults[0].claim.onset_s, 4.0, 0.05);
 }
 
+TEST(ExplainLog, ABrakeThatSlidesBeforeItHoldsIsALock) {
+  ClosedFormRun run = run_of(27);
+  run.locks_from_s = 4.15;
+  const Log log = testing::changed(simulate_closed_form(of_day(0), run), 4.0, 4.15,
+                                   [](Log& l, int k) { l.tau[1][k] += 6.0; });
+  const auto fault = decided(fit_of(log));
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::locked, 2}));
+  EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.06);
+}
+
 TEST(ExplainLog, AnEncoderThatReadsAVelocityAnewIsNotStuck) {
   Log log = with_lock(24);
   for (int k = 1001; k < log.rows(); ++k) log.q[1][k] = log.q[1][1000];  // too coarse to show any noise
   const auto fault = decided(fit_of(std::move(log)));
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::locked, 2}));
+}
+
+TEST(ExplainLog, AVelocityThatFadesInAFilterBelongsToAStuckEncoder) {
+  Log log = simulate_closed_form(of_day(0), run_of(26));
+  const double speed = log.dq[1][1000];
+  for (int k = 1001; k < log.rows(); ++k) {
+    log.q[1][k] = log.q[1][1000];
+    log.dq[1][k] = speed * std::exp(-kExplainedPeriod_s * (k - 1000) / 0.01);
+  }
+  const auto fault = decided(fit_of(std::move(log)));
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::stuck_encoder, 2}));
 }
 
 TEST(ExplainLog, APositionOfASlideThatJumpsContradictsItsVelocity) {

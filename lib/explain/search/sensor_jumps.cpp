@@ -19,7 +19,7 @@ constexpr int kAround = 14;            // samples on each side from which a step
 constexpr double kFewWaves = 0.3;      // decay of the fusion: below, the velocity is too noisy to show steps
 constexpr double kHighRate_s = 0.005;  // s: below, a cubic of the time beside the step gives its size
 constexpr double kMostOfJump = 50.0;   // nats: no fault by itself, for one measurement may be false
-constexpr std::size_t kMostRuns = 3;   // of repeated codes
+constexpr std::size_t kMostRuns = 3;   // of repeated codes: the longest, and those of the most lost travel
 constexpr int kManyRepeats = 12;       // samples: if healthy positions repeat so long, it is no evidence
 
 /// Returns whether the velocity of joint `j` (from 0) does not show steps of its position.
@@ -45,6 +45,13 @@ VectorXd off_motion(const LogFit& fit, int j) {
   }
   return out;
 }
+
+/// Successive samples that repeat one code.
+struct RunOfCodes {
+  RepeatedCode code;
+  int samples = 0;
+  double lost_travel = 0.0;  ///< of the joint at its speed before them; two samples of it, times their number
+};
 
 /// Returns the standard deviation of such deviations by their median, which jumps do not change.
 double usual_size(std::vector<double> size) { return 1.4826 * upper_median(std::move(size)) + 1e-7; }
@@ -121,19 +128,27 @@ std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int j) {
   const BalanceModel& m = fit.model();
   const double least =
       repeats_are_rare(m, j) ? std::max(6, 2 * m.longest_repeat[j]) : 0.1 / m.setting.period_s;
-  std::vector<std::pair<int, RepeatedCode>> runs;  // with their samples
+  std::vector<RunOfCodes> runs;
   for (int first = 0; first < log.rows();) {
     int next = first + 1;
     while (next < log.rows() && (log.lost[next] || log.q(next, j) == log.q(first, j))) ++next;
     const bool to_the_end = next == log.rows();
     if (next - 1 - first >= least)
-      runs.push_back({next - first, {log.time_s(first), to_the_end ? kNeverEnds : log.time_s(next)}});
+      runs.push_back({{log.time_s(first), to_the_end ? kNeverEnds : log.time_s(next)},
+                      next - first,
+                      std::abs(log.q(first, j) - log.q(std::max(0, first - 2), j)) * (next - first)});
     first = next;
   }
-  std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<RepeatedCode> out;
-  for (const auto& [samples, run] : runs)
-    if (out.size() < kMostRuns) out.push_back(run);
+  const auto add_most = [&](auto RunOfCodes::*criterion) {
+    std::ranges::stable_sort(runs, std::ranges::greater{}, criterion);
+    const std::size_t most = std::min(runs.size(), kMostRuns);
+    for (std::size_t k = 0; k < most; ++k)
+      if (std::ranges::find(out, runs[k].code.onset_s, &RepeatedCode::onset_s) == out.end())
+        out.push_back(runs[k].code);
+  };
+  add_most(&RunOfCodes::samples);
+  add_most(&RunOfCodes::lost_travel);
   return out;
 }
 

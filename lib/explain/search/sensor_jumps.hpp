@@ -29,7 +29,8 @@ struct RepeatedCode {
   double end_s = kNeverEnds;
 };
 
-/// Returns the longest of them, longest first.
+/// Returns the longest of them, then those in which the joint would have moved most at its speed before: a
+/// joint at rest slows down first.
 std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int joint);
 
 }  // namespace faultline
