@@ -2,6 +2,8 @@
 #include "lib/core/markup.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "lib/core/text.hpp"
 #include "lib/core/utf8.hpp"
@@ -9,27 +11,8 @@
 namespace faultline {
 namespace {
 
-/// Returns null for a character that needs no escape.
-const char* entity(char c) {
-  switch (c) {
-    case '&':
-      return "&amp;";
-    case '<':
-      return "&lt;";
-    case '>':
-      return "&gt;";
-    case '"':
-      return "&quot;";
-    case '\'':
-      return "&apos;";
-    case '\n':
-      return "&#10;";
-    case '\t':
-      return "&#9;";
-    default:
-      return nullptr;
-  }
-}
+constexpr std::string_view kMarks = "&<>\"'\n\t";
+constexpr std::array kEntities{"&amp;", "&lt;", "&gt;", "&quot;", "&apos;", "&#10;", "&#9;"};  // of kMarks
 
 }  // namespace
 
@@ -38,8 +21,8 @@ std::string escaped_markup(std::string_view text) {
   std::string escaped;
   for (std::size_t i = 0; i < valid.size();) {
     const std::size_t command = command_length(valid, i);
-    if (const char* name = entity(valid[i]))
-      escaped += name;
+    if (const std::size_t mark = kMarks.find(valid[i]); mark != std::string_view::npos)
+      escaped += kEntities[mark];
     else
       escaped += command > 0 ? '?' : valid[i];
     i += std::max<std::size_t>(command, 1);

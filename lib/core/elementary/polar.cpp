@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "lib/core/elementary/double_double.hpp"
@@ -52,6 +53,25 @@ DoubleDouble direction(double y, double x) {
   return kRightAngle + -angle_of(DoubleDouble{x} / DoubleDouble{y});
 }
 
+constexpr double kHypotFar = 0x1p60;  // ratio above which the shorter side has no effect
+constexpr double kLargest = 0x1p500,
+                 kSmallest = 0x1p-400;  // between them squares neither over- nor underflow
+
+/// Returns the root h of the rounded sum of squares, a >= b > 0, both between kSmallest and kLargest, minus
+/// (h^2 - a^2 - b^2) / (2 h), in differences that cancel little (Borges 2021).
+double root_of_squares(double a, double b) {
+  const double root = std::sqrt(a * a + b * b);
+  double excess = 0.0;
+  if (root <= 2.0 * b) {
+    const double over = root - b;
+    excess = a * (2.0 * over - a) + over * (over - 2.0 * (a - b));
+  } else {
+    const double over = root - a;
+    excess = 2.0 * over * (a - 2.0 * b) + ((4.0 * over - b) * b + over * over);
+  }
+  return root - excess / (2.0 * root);
+}
+
 }  // namespace
 
 double atan(double x) {
@@ -81,6 +101,16 @@ double atan2(double y, double x) {
     angle = back ? (kHalfTurn + -sharp).high : sharp.high;
   }
   return std::copysign(angle, y);
+}
+
+double hypot(double x, double y) {
+  if (std::isinf(x) || std::isinf(y)) return std::numeric_limits<double>::infinity();
+  if (x != x || y != y) return x + y;
+  const double a = std::fmax(std::abs(x), std::abs(y)), b = std::fmin(std::abs(x), std::abs(y));
+  if (b <= a / kHypotFar) return a + b;
+  if (a > kLargest) return root_of_squares(a * 0x1p-600, b * 0x1p-600) * 0x1p600;
+  if (b < kSmallest) return root_of_squares(a * 0x1p600, b * 0x1p600) * 0x1p-600;
+  return root_of_squares(a, b);
 }
 
 }  // namespace faultline::elementary
