@@ -13,7 +13,7 @@
 #include "formats/log_formats.hpp"
 #include "formats/open_log.hpp"
 #include "formats/provenance.hpp"
-#include "formats/write_log.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/robot/robot_file.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/log_event.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/diagnose/diagnosis.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/model/model.hpp"

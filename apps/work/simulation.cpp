@@ -6,7 +6,7 @@
 
 #include "apps/work/file_use.hpp"
 #include "apps/work/folder.hpp"
-#include "formats/write_log.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/log/transformed/coupled_source.hpp"
 #include "lib/simulate/run_labels.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/arrays/array_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,14 +6,14 @@
 #include <filesystem>
 #include <vector>
 
+#include "formats/arrays/array_file.hpp"
 #include "formats/arrays/array_notes.hpp"
-#include "formats/arrays/array_shape.hpp"
 #include "formats/arrays/array_table.hpp"
-#include "formats/byte_window.hpp"
-#include "formats/missing.hpp"
+#include "formats/byte_source.hpp"
 #include "formats/provenance.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
+#include "lib/log/raw_reader.hpp"
 
 namespace faultline {
 namespace {
@@ -46,8 +44,6 @@ class ArrayReader : public RawReader {
   }
 
   const std::vector<RawColumn>& columns() const override { return table_.columns; }
-  void want(const std::vector<bool>& columns) override { wanted_ = columns; }
-  const LogIdentity& identity() const override { return identity_; }
   const Issues& issues() const override { return issues_; }
   double share_read() const override {
     return table_.rows_held > 0 ? static_cast<double>(given_) / static_cast<double>(table_.rows_held) : 1.0;
@@ -258,7 +254,6 @@ class ArrayReader : public RawReader {
   std::unique_ptr<ArrayFile> file_;  ///< null unless rows are being read
   std::vector<NamedArray> arrays_;
   ArrayTable table_;
-  std::vector<bool> wanted_;
   std::vector<std::vector<double>> slab_;  ///< by column of the table; empty if not wanted
   std::vector<char> dropped_;              ///< by row of the slab
   std::vector<std::int64_t> values_lost_;  ///< by row of the slab
@@ -267,7 +262,6 @@ class ArrayReader : public RawReader {
   std::int64_t given_ = 0;     ///< rows handed out or dropped so far
   std::int64_t rows_cut_ = 0;  ///< after the last that the file can hold, already reported
   bool at_end_ = false;
-  LogIdentity identity_;
   Issues opening_;  ///< issues found on opening
   Issues issues_;
 };

@@ -2,7 +2,6 @@
 #include "formats/arrays/stored_arrays.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <cstring>
 #include <limits>
 
+#include "formats/bytes/little_endian.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/core/text.hpp"
 
@@ -22,6 +22,8 @@ constexpr std::int64_t kRegionBytes = 16 << 20;     ///< read at once
 constexpr std::size_t kMostRegionBytes = 64 << 20;  ///< of one row, or of a column of few rows
 constexpr std::size_t kPiece = 1 << 20;
 
+/// Converts elements that lie `stride` bytes apart from `from` on to doubles. `swapped` when their byte order
+/// is not the processor's.
 template <typename Element>
 void decode_as(const char* from, std::ptrdiff_t stride, bool swapped, std::size_t count, double* to) {
   for (std::size_t i = 0; i < count; ++i, from += stride) {
@@ -34,33 +36,22 @@ void decode_as(const char* from, std::ptrdiff_t stride, bool swapped, std::size_
   }
 }
 
-/// Converts elements that lie `stride` bytes apart from `from` on to doubles. `swapped` when their byte order
-/// is not the processor's.
-void decode(const char* from, std::ptrdiff_t stride, ElementType type, bool swapped, std::size_t count,
-            double* to) {
-  switch (type) {
-    case ElementType::f4:
-      return decode_as<float>(from, stride, swapped, count, to);
-    case ElementType::f8:
-      return decode_as<double>(from, stride, swapped, count, to);
-    case ElementType::i1:
-      return decode_as<std::int8_t>(from, stride, swapped, count, to);
-    case ElementType::i2:
-      return decode_as<std::int16_t>(from, stride, swapped, count, to);
-    case ElementType::i4:
-      return decode_as<std::int32_t>(from, stride, swapped, count, to);
-    case ElementType::i8:
-      return decode_as<std::int64_t>(from, stride, swapped, count, to);
-    case ElementType::u1:
-      return decode_as<std::uint8_t>(from, stride, swapped, count, to);
-    case ElementType::u2:
-      return decode_as<std::uint16_t>(from, stride, swapped, count, to);
-    case ElementType::u4:
-      return decode_as<std::uint32_t>(from, stride, swapped, count, to);
-    case ElementType::u8:
-      return decode_as<std::uint64_t>(from, stride, swapped, count, to);
-  }
-}
+/// The size of an element, and the conversion to doubles of elements that lie `stride` bytes apart.
+struct ElementFacts {
+  std::size_t size;
+  void (*decode)(const char* from, std::ptrdiff_t stride, bool swapped, std::size_t count, double* to);
+};
+
+template <typename Element>
+constexpr ElementFacts kFactsOf{sizeof(Element), decode_as<Element>};
+
+/// In the order of ElementType.
+constexpr ElementFacts kElements[] = {
+    kFactsOf<float>,         kFactsOf<double>,       kFactsOf<std::int8_t>,  kFactsOf<std::int16_t>,
+    kFactsOf<std::int32_t>,  kFactsOf<std::int64_t>, kFactsOf<std::uint8_t>, kFactsOf<std::uint16_t>,
+    kFactsOf<std::uint32_t>, kFactsOf<std::uint64_t>};
+
+const ElementFacts& facts_of(ElementType type) { return kElements[static_cast<std::size_t>(type)]; }
 
 /// Memory layout of a two-dimensional array: bytes between its rows, and between its columns.
 struct Lie {
@@ -88,25 +79,7 @@ std::int64_t whole(std::int64_t bytes, std::int64_t stride, std::int64_t most) {
 
 }  // namespace
 
-std::size_t size_of(ElementType type) {
-  switch (type) {
-    case ElementType::i1:
-    case ElementType::u1:
-      return 1;
-    case ElementType::i2:
-    case ElementType::u2:
-      return 2;
-    case ElementType::f4:
-    case ElementType::i4:
-    case ElementType::u4:
-      return 4;
-    case ElementType::f8:
-    case ElementType::i8:
-    case ElementType::u8:
-      return 8;
-  }
-  return 1;
-}
+std::size_t size_of(ElementType type) { return facts_of(type).size; }
 
 std::vector<std::int64_t> packed_strides(const std::vector<std::int64_t>& shape, std::int64_t item,
                                          bool fortran_order) {
@@ -202,8 +175,10 @@ void StoredArrays::read_by_rows(const ArrayBand& band, BandValues& values) {
     fetch(stored.content, {band.array, -1}, at, static_cast<std::size_t>(wanted));
     const std::int64_t got = whole(static_cast<std::int64_t>(region_.got) - last, lie.row_stride, rows);
     for (std::size_t i = 0; i < band.columns.size(); ++i)
-      decode(region_.bytes.data() + stored.in_record + band.columns[i] * lie.column_stride, lie.row_stride,
-             stored.type, stored.swapped, static_cast<std::size_t>(got), values.columns[i].data() + done);
+      facts_of(stored.type)
+          .decode(region_.bytes.data() + stored.in_record + band.columns[i] * lie.column_stride,
+                  lie.row_stride, stored.swapped, static_cast<std::size_t>(got),
+                  values.columns[i].data() + done);
     if (got < rows) {
       values.lost.push_back({done + got, band.rows - done - got});
       return;
@@ -222,8 +197,9 @@ void StoredArrays::read_by_columns(const ArrayBand& band, BandValues& values) {
     const std::int64_t wanted = (band.rows - 1) * lie.row_stride + item;
     fetch(stored.content, {band.array, band.columns[i]}, at, static_cast<std::size_t>(wanted));
     const std::int64_t got = whole(static_cast<std::int64_t>(region_.got) - item, lie.row_stride, band.rows);
-    decode(region_.bytes.data(), lie.row_stride, stored.type, stored.swapped, static_cast<std::size_t>(got),
-           values.columns[i].data());
+    facts_of(stored.type)
+        .decode(region_.bytes.data(), lie.row_stride, stored.swapped, static_cast<std::size_t>(got),
+                values.columns[i].data());
     if (got < band.rows) values.lost.push_back({got, band.rows - got, static_cast<int>(i)});
   }
 }
@@ -256,11 +232,11 @@ void StoredArrays::finish() {
     const StoredContent& content = list_.contents[i];
     if (!content.crc || content.packing != Packing::plain) continue;
     ContentStream stream(*file_, content);
-    unsigned long crc = 0;
+    std::uint32_t crc = 0;
     std::int64_t at = 0;
     for (std::size_t got; (got = stream.read(at, piece.data(), piece.size())) > 0;
          at += static_cast<std::int64_t>(got))
-      crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(piece.data()), got);
+      crc = crc32_of({piece.data(), got}, crc);
     if (crc != *content.crc) report_mismatch(content.name);
   }
   for (auto& [key, stream] : streams_)

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <vector>
 
+#include "formats/bytes/little_endian.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {
@@ -108,7 +109,7 @@ struct ContentStream::Inflater {
       const bool stuck = more == 0 && before == stream.avail_in;
       ok = state == Z_STREAM_END || (state == Z_OK && !stuck) || (state == Z_BUF_ERROR && !stuck);
     }
-    crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(to), got);
+    crc = crc32_of({to, got}, crc);
     position += static_cast<std::int64_t>(got);
     file.spend(unpack_work_ns(kDeflateByte_ns, static_cast<std::int64_t>(got)));
     return got;
@@ -120,7 +121,7 @@ struct ContentStream::Inflater {
   std::vector<char> input, passed;
   std::int64_t taken = 0;     ///< bytes of the content in the file
   std::int64_t position = 0;  ///< unpacked bytes
-  unsigned long crc = 0;
+  std::uint32_t crc = 0;
   bool begun = false, ok = false, ended = false;
   bool wrong = false;  ///< compressed bytes or zlib checksum are damaged
 };

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <utility>
 
-#include "formats/channel_list.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/output_place.hpp"
 #include "lib/log/log_channels.hpp"

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "formats/byte_source.hpp"
-#include "formats/bytes/file_bytes.hpp"
 #include "formats/bytes/work_budget.hpp"
 
 namespace faultline {

@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+
+#include "lib/core/error.hpp"
 
 namespace faultline {
 
@@ -28,7 +31,13 @@ class WorkBudget {
   /// values take some us.
   static constexpr std::int64_t kWorkOfAByte_ns = 2000;
 
-  [[noreturn]] void refuse() const;
+  [[noreturn]] void refuse() const {
+    throw Error(
+        ErrorCode::input, path_,
+        "holds far more rows or unpacked bytes than a log of its size (over 2 us of work for each byte of "
+        "the file), so reading stopped. If it is a log, unpack it first, or write it again without "
+        "compression and without parts that hold no log");
+  }
 
   std::string path_;
   std::int64_t spent_ns_ = 0;

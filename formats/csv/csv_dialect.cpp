@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "formats/csv/csv_fields.hpp"
-#include "formats/csv/csv_header.hpp"
-#include "formats/csv/csv_lines.hpp"
 
 namespace faultline {
 namespace {

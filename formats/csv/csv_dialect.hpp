@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "formats/csv/csv_fields.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {
@@ -49,5 +51,13 @@ struct CsvDialect {
 /// Finds the dialect from the first bytes of a file: the separator and decimal sign that make most cells
 /// numbers in rows of equal length, then the header above them.
 CsvDialect find_dialect(std::string_view head);
+
+/// Finds names and units of the columns in the lines above the table or, without a header, in its first rows;
+/// sets the columns, header flags and unit of time of `dialect`.
+void find_columns(std::span<const CsvLine> above, std::span<const CsvLine> rows, int fields,
+                  CsvDialect& dialect);
+
+/// True when these fields of a row repeat the header, as in concatenated files.
+bool repeats_header(const CsvDialect& dialect, const std::vector<std::string_view>& fields);
 
 }  // namespace faultline

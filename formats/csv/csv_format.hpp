@@ -22,4 +22,7 @@ std::unique_ptr<RawReader> open_csv(std::unique_ptr<ByteSource> bytes);
 /// digits that restore the same double, an empty cell for a missing value.
 std::unique_ptr<LogWriter> create_csv(const std::string& path);
 
+/// Beginning of the comment line of a text table that contains its provenance.
+inline constexpr std::string_view kProvenanceComment = "# faultline provenance: ";
+
 }  // namespace faultline

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "formats/csv/csv_header.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <set>
 #include <utility>
 
+#include "formats/csv/csv_dialect.hpp"
 #include "formats/csv/csv_fields.hpp"
 #include "lib/core/csv_cell.hpp"
 #include "lib/log/channel_names.hpp"

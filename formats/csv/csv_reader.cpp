@@ -12,9 +12,8 @@
 #include "formats/csv/csv_dialect.hpp"
 #include "formats/csv/csv_fields.hpp"
 #include "formats/csv/csv_format.hpp"
-#include "formats/csv/csv_issues.hpp"
 #include "formats/csv/csv_row.hpp"
-#include "formats/csv/number.hpp"
+#include "formats/csv/wide_rows.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 
@@ -47,17 +46,53 @@ class LineBuffer {
   void advance_to(const char* position) { begin_ = static_cast<std::size_t>(position - text()); }
   /// Reads until a whole line is in the buffer; false at the end of the file. Invalidates pointers into the
   /// buffer. Throws Error(input) for a line longer than kLongestLine.
-  bool fill();
+  bool fill() {
+    while (begin_ == lines_end_) {
+      if (at_end_) return false;
+      if (begin_ > 0) {
+        keep_before();
+        std::memmove(text(), text() + begin_, end_ - begin_);
+        end_ -= begin_;
+        begin_ = lines_end_ = 0;
+      }
+      if (end_ > kLongestLine)
+        throw Error(ErrorCode::input, bytes_.path(),
+                    "has a line of more than 16 MiB; write one sample on each line");
+      const std::size_t needed = end_ + kBlock + 1 + 2 * kNumberMargin;
+      if (bytes_read_.size() < needed) bytes_read_.resize(needed);
+      const std::size_t got = bytes_.read(text() + end_, kBlock);
+      if (got == 0) {
+        at_end_ = true;
+        last_line_was_open_ = end_ > 0;
+        if (end_ > 0) text()[end_++] = '\n';
+        lines_end_ = end_;
+        continue;
+      }
+      const void* newline = ::memrchr(text() + end_, '\n', got);
+      end_ += got;
+      if (newline) lines_end_ = static_cast<std::size_t>(static_cast<const char*>(newline) - text()) + 1;
+    }
+    return true;
+  }
+
   /// True when the last of the present lines is the last of the file and had no newline.
   bool last_line_was_open() const { return last_line_was_open_; }
   /// Whole lines just before that one, at most a few KiB.
   std::string_view lines_before() const { return before_; }
-  void clear();
+  void clear() {
+    before_.clear();
+    begin_ = lines_end_ = end_ = 0;
+    at_end_ = last_line_was_open_ = false;
+  }
 
  private:
   const char* text() const { return bytes_read_.data() + kNumberMargin; }
   char* text() { return bytes_read_.data() + kNumberMargin; }
-  void keep_before();
+  void keep_before() {
+    const std::size_t from = begin_ > kKeptBefore ? begin_ - kKeptBefore : 0;
+    before_.assign(text() + from, begin_ - from);
+    if (from > 0) before_.erase(0, before_.find('\n') + 1);  // its first line is not whole
+  }
 
   ByteSource& bytes_;
   std::vector<char> bytes_read_;  ///< with kNumberMargin bytes around them
@@ -68,47 +103,6 @@ class LineBuffer {
   bool at_end_ = false;
   bool last_line_was_open_ = false;
 };
-
-bool LineBuffer::fill() {
-  while (begin_ == lines_end_) {
-    if (at_end_) return false;
-    if (begin_ > 0) {
-      keep_before();
-      std::memmove(text(), text() + begin_, end_ - begin_);
-      end_ -= begin_;
-      begin_ = lines_end_ = 0;
-    }
-    if (end_ > kLongestLine)
-      throw Error(ErrorCode::input, bytes_.path(),
-                  "has a line of more than 16 MiB; write one sample on each line");
-    const std::size_t needed = end_ + kBlock + 1 + 2 * kNumberMargin;
-    if (bytes_read_.size() < needed) bytes_read_.resize(needed);
-    const std::size_t got = bytes_.read(text() + end_, kBlock);
-    if (got == 0) {
-      at_end_ = true;
-      last_line_was_open_ = end_ > 0;
-      if (end_ > 0) text()[end_++] = '\n';
-      lines_end_ = end_;
-      continue;
-    }
-    const void* newline = ::memrchr(text() + end_, '\n', got);
-    end_ += got;
-    if (newline) lines_end_ = static_cast<std::size_t>(static_cast<const char*>(newline) - text()) + 1;
-  }
-  return true;
-}
-
-void LineBuffer::keep_before() {
-  const std::size_t from = begin_ > kKeptBefore ? begin_ - kKeptBefore : 0;
-  before_.assign(text() + from, begin_ - from);
-  if (from > 0) before_.erase(0, before_.find('\n') + 1);  // its first line is not whole
-}
-
-void LineBuffer::clear() {
-  before_.clear();
-  begin_ = lines_end_ = end_ = 0;
-  at_end_ = last_line_was_open_ = false;
-}
 
 std::size_t longest_line(std::string_view text) {
   std::size_t longest = 0;
@@ -140,21 +134,132 @@ class CsvReader : public RawReader {
 
   const std::vector<RawColumn>& columns() const override { return dialect_.columns; }
   void want(const std::vector<bool>& columns) override { rows_.want(columns); }
-  bool next(RawBlock& block, int max_rows) override;
-  void rewind() override;
-  const LogIdentity& identity() const override { return identity_; }
+  bool next(RawBlock& block, int max_rows) override {
+    max_rows = std::min(max_rows, std::max(1, kBlockValues / std::max(1, dialect_.fields)));
+    rows_.begin_block(block, max_rows);
+    block.first_row = at_.row;
+    int row = 0;
+    while (row < max_rows && lines_.fill()) {
+      const char* p = lines_.position();
+      const char* const end = lines_.end_of_lines();
+      const CsvPlace before = at_;
+      const std::int64_t absent_before = rows_.absent_fields();
+      bool stop = false;
+      while (row < max_rows && p < end && !stop) {
+        if (const int rows = read_many(p, end, row, max_rows)) {
+          row += rows;
+          continue;
+        }
+        CsvRow verdict = CsvRow::keep;
+        p = read_line(p, end, row, verdict);
+        ++at_.line;
+        at_.row += verdict != CsvRow::skip;
+        row += verdict == CsvRow::keep;
+        if (verdict == CsvRow::drop) {
+          if (row == 0) block.first_row = at_.row;
+          stop = row > 0;  // rows of a block are consecutive
+        }
+      }
+      lines_.advance_to(p);
+      spend(before, absent_before);
+      if (stop) break;
+    }
+    refuse_mostly_absent();
+    if (row == 0) issues_.add_bytes(bytes_->issues());
+    identity_.rows_read = at_.row;
+    identity_.sha256 = bytes_->sha256();
+    block.rows = row;
+    for (auto& column : block.columns)
+      if (!column.empty()) column.resize(row);
+    return row > 0;
+  }
+
+  void rewind() override {
+    bytes_->rewind();
+    lines_.clear();
+    issues_.start();
+    rows_.start();
+    identity_.rows_read = 0;
+    start();
+  }
+
   const Issues& issues() const override { return issues_.all(); }
   bool sparse() const override { return dialect_.sparse; }
   double share_read() const override { return bytes_->share_read(); }
 
  private:
-  void refuse_many_columns() const;
-  void refuse_duplicates() const;
-  void refuse_mostly_absent() const;
-  void spend(const CsvPlace& before, std::int64_t absent_before);
-  int read_many(const char*& p, const char* end, int row, int max_rows);
-  const char* read_line(const char* p, const char* end, int row, CsvRow& verdict);
-  void start();
+  void refuse_many_columns() const {
+    if (dialect_.fields > kMostFields)
+      throw Error(
+          ErrorCode::input, bytes_->path(),
+          fmt::format("has more than {} columns, the most that a log may have; write one sample on each "
+                      "line, with only the columns of the joints",
+                      kMostFields));
+  }
+
+  void refuse_duplicates() const {
+    std::map<std::string, int> seen;
+    for (std::size_t i = 0; i < dialect_.columns.size(); ++i) {
+      const int field = dialect_.value_fields[i] + 1;
+      const auto [before, fresh] = seen.emplace(dialect_.columns[i].name, field);
+      if (!fresh)
+        throw Error(ErrorCode::input, bytes_->path(),
+                    fmt::format("has two columns named \"{}\", columns {} and {}; give each its own name",
+                                shortened(before->first, kLongestName), before->second, field));
+    }
+  }
+
+  /// Rejects files whose rows lack most fields, as they expand to much more data than the file holds.
+  void refuse_mostly_absent() const {
+    const double all = static_cast<double>(at_.row) * dialect_.fields;
+    if (rows_.absent_fields() < kMostAbsent ||
+        static_cast<double>(rows_.absent_fields()) < kMostAbsentShare * all)
+      return;
+    throw Error(
+        ErrorCode::input, bytes_->path(),
+        fmt::format("has rows that lack most of the {} columns of its header; write all fields of each row",
+                    dialect_.fields));
+  }
+
+  /// Counts the work on the lines since `before`.
+  void spend(const CsvPlace& before, std::int64_t absent_before) {
+    const std::int64_t rows = at_.row - before.row, absent = rows_.absent_fields() - absent_before;
+    bytes_->spend(kLineWork_ns * (at_.line - before.line) + table_work_ns(rows, dialect_.fields) -
+                  kValueWork_ns * absent);
+  }
+
+  /// Reads rows of numbers from `p` on together; returns their number, 0 if read_line() must read the next
+  /// line.
+  int read_many(const char*& p, const char* end, int row, int max_rows) {
+    if (lines_.last_line_was_open()) return 0;
+    const int rows = rows_.read_many(p, end, row, max_rows);
+    at_.line += rows;
+    at_.row += rows;
+    return rows;
+  }
+
+  /// Reads the line at `p` and returns the position after it.
+  const char* read_line(const char* p, const char* end, int row, CsvRow& verdict) {
+    verdict = CsvRow::keep;
+    const bool open = lines_.last_line_was_open();  // then it is the only line in the buffer
+    if (const char* after = open ? nullptr : rows_.read_plain(p, end, row)) return after;
+    const char* newline = static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
+    const std::string_view line(p, static_cast<std::size_t>(newline - p));
+    verdict = open ? rows_.read_open(line, lines_.lines_before(), at_, row) : rows_.read_any(line, at_, row);
+    return newline + 1;
+  }
+
+  /// Skips the header.
+  void start() {
+    at_ = {0, dialect_.lines_before};
+    std::size_t to_skip = dialect_.data_begin;
+    while (to_skip > 0 && lines_.fill()) {
+      const std::size_t there = static_cast<std::size_t>(lines_.end_of_lines() - lines_.position());
+      const std::size_t now = std::min(to_skip, there);
+      lines_.advance_to(lines_.position() + now);
+      to_skip -= now;
+    }
+  }
 
   std::unique_ptr<ByteSource> bytes_;
   CsvDialect dialect_;
@@ -162,7 +267,6 @@ class CsvReader : public RawReader {
   CsvPlace at_;
   CsvIssues issues_;
   CsvRowReader rows_;
-  LogIdentity identity_;
 };
 
 CsvReader::CsvReader(std::unique_ptr<ByteSource> bytes)
@@ -176,128 +280,6 @@ CsvReader::CsvReader(std::unique_ptr<ByteSource> bytes)
   refuse_many_columns();
   refuse_duplicates();
   start();
-}
-
-void CsvReader::refuse_many_columns() const {
-  if (dialect_.fields > kMostFields)
-    throw Error(
-        ErrorCode::input, bytes_->path(),
-        fmt::format("has more than {} columns, the most that a log may have; write one sample on each "
-                    "line, with only the columns of the joints",
-                    kMostFields));
-}
-
-/// Rejects files whose rows lack most fields, as they expand to much more data than the file holds.
-void CsvReader::refuse_mostly_absent() const {
-  const double all = static_cast<double>(at_.row) * dialect_.fields;
-  if (rows_.absent_fields() < kMostAbsent ||
-      static_cast<double>(rows_.absent_fields()) < kMostAbsentShare * all)
-    return;
-  throw Error(
-      ErrorCode::input, bytes_->path(),
-      fmt::format("has rows that lack most of the {} columns of its header; write all fields of each row",
-                  dialect_.fields));
-}
-
-void CsvReader::refuse_duplicates() const {
-  std::map<std::string, int> seen;
-  for (std::size_t i = 0; i < dialect_.columns.size(); ++i) {
-    const int field = dialect_.value_fields[i] + 1;
-    const auto [before, fresh] = seen.emplace(dialect_.columns[i].name, field);
-    if (!fresh)
-      throw Error(ErrorCode::input, bytes_->path(),
-                  fmt::format("has two columns named \"{}\", columns {} and {}; give each its own name",
-                              shortened(before->first, kLongestName), before->second, field));
-  }
-}
-
-/// Counts the work on the lines since `before`.
-void CsvReader::spend(const CsvPlace& before, std::int64_t absent_before) {
-  const std::int64_t rows = at_.row - before.row, absent = rows_.absent_fields() - absent_before;
-  bytes_->spend(kLineWork_ns * (at_.line - before.line) + table_work_ns(rows, dialect_.fields) -
-                kValueWork_ns * absent);
-}
-
-/// Skips the header.
-void CsvReader::start() {
-  at_ = {0, dialect_.lines_before};
-  std::size_t to_skip = dialect_.data_begin;
-  while (to_skip > 0 && lines_.fill()) {
-    const std::size_t there = static_cast<std::size_t>(lines_.end_of_lines() - lines_.position());
-    const std::size_t now = std::min(to_skip, there);
-    lines_.advance_to(lines_.position() + now);
-    to_skip -= now;
-  }
-}
-
-void CsvReader::rewind() {
-  bytes_->rewind();
-  lines_.clear();
-  issues_.start();
-  rows_.start();
-  identity_.rows_read = 0;
-  start();
-}
-
-/// Reads rows of numbers from `p` on together; returns their number, 0 if read_line() must read the next
-/// line.
-int CsvReader::read_many(const char*& p, const char* end, int row, int max_rows) {
-  if (lines_.last_line_was_open()) return 0;
-  const int rows = rows_.read_many(p, end, row, max_rows);
-  at_.line += rows;
-  at_.row += rows;
-  return rows;
-}
-
-/// Reads the line at `p` and returns the position after it.
-const char* CsvReader::read_line(const char* p, const char* end, int row, CsvRow& verdict) {
-  verdict = CsvRow::keep;
-  const bool open = lines_.last_line_was_open();  // then it is the only line in the buffer
-  if (const char* after = open ? nullptr : rows_.read_plain(p, end, row)) return after;
-  const char* newline = static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
-  const std::string_view line(p, static_cast<std::size_t>(newline - p));
-  verdict = open ? rows_.read_open(line, lines_.lines_before(), at_, row) : rows_.read_any(line, at_, row);
-  return newline + 1;
-}
-
-bool CsvReader::next(RawBlock& block, int max_rows) {
-  max_rows = std::min(max_rows, std::max(1, kBlockValues / std::max(1, dialect_.fields)));
-  rows_.begin_block(block, max_rows);
-  block.first_row = at_.row;
-  int row = 0;
-  while (row < max_rows && lines_.fill()) {
-    const char* p = lines_.position();
-    const char* const end = lines_.end_of_lines();
-    const CsvPlace before = at_;
-    const std::int64_t absent_before = rows_.absent_fields();
-    bool stop = false;
-    while (row < max_rows && p < end && !stop) {
-      if (const int rows = read_many(p, end, row, max_rows)) {
-        row += rows;
-        continue;
-      }
-      CsvRow verdict = CsvRow::keep;
-      p = read_line(p, end, row, verdict);
-      ++at_.line;
-      at_.row += verdict != CsvRow::skip;
-      row += verdict == CsvRow::keep;
-      if (verdict == CsvRow::drop) {
-        if (row == 0) block.first_row = at_.row;
-        stop = row > 0;  // rows of a block are consecutive
-      }
-    }
-    lines_.advance_to(p);
-    spend(before, absent_before);
-    if (stop) break;
-  }
-  refuse_mostly_absent();
-  if (row == 0) issues_.add_bytes(bytes_->issues());
-  identity_.rows_read = at_.row;
-  identity_.sha256 = bytes_->sha256();
-  block.rows = row;
-  for (auto& column : block.columns)
-    if (!column.empty()) column.resize(row);
-  return row > 0;
 }
 
 }  // namespace

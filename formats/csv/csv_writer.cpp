@@ -5,9 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "formats/channel_list.hpp"
 #include "formats/csv/csv_format.hpp"
-#include "formats/csv/csv_provenance.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/csv_cell.hpp"
 

@@ -10,7 +10,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "formats/csv/number.hpp"
+#include "formats/csv/wide_rows.hpp"
 
 #define FAULTLINE_AVX2 __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt")))
 #define FAULTLINE_AVX2_INLINE FAULTLINE_AVX2 __attribute__((always_inline)) inline

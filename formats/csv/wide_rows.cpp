@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "formats/csv/wide_rows.hpp"
 
+#include <fast_float/fast_float.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+
+namespace faultline {
+
+bool read_number(const char* begin, const char* end, char decimal, double& value) {
+  const fast_float::parse_options options(fast_float::chars_format::general, decimal);
+  const auto [behind, error] = fast_float::from_chars_advanced(begin, end, value, options);
+  return error == std::errc() && behind == end;
+}
+
+}  // namespace faultline
 
 #if defined(__x86_64__)
 

@@ -2,10 +2,18 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace faultline {
+
+/// Number of bytes before and after a text of numbers that must be readable; their values are irrelevant.
+inline constexpr std::size_t kNumberMargin = 64;
+
+/// Reads the number that fills [begin, end) as fast_float::from_chars does, correctly rounded; false for
+/// anything else.
+bool read_number(const char* begin, const char* end, char decimal, double& value);
 
 /// Reads rows of only numbers, separators and empty cells (NaN) with the 32-byte registers of the processor:
 /// first the ends of the fields in some KiB of text, then each number between two ends, independent of the

@@ -2,10 +2,99 @@
 #include "formats/hdf5/hdf5_dataset.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace faultline {
 namespace {
+
+/// All dimensions of a dataset, and those that its shape keeps.
+struct Hdf5Shape {
+  std::vector<hsize_t> dimensions;
+  std::vector<std::size_t> kept;
+  std::vector<std::int64_t> shape;
+};
+
+constexpr double kStorageMostExpansion = 1100.0;  ///< upper limit of the compression ratio of a filter
+constexpr double kLeastChunk = 1 << 20;           ///< bytes that a chunk may take in any file
+constexpr hsize_t kMostListed = 4096;             ///< chunks that are queried one by one
+constexpr hsize_t kMostPlaces = hsize_t{1} << 40;
+
+std::int64_t elements_of(const std::vector<std::int64_t>& shape) {
+  std::int64_t all = 1;
+  for (const std::int64_t size : shape) all *= size;
+  return all;
+}
+
+/// True for filters that are robust against damaged input.
+bool is_safe(H5Z_filter_t filter) {
+  return filter == H5Z_FILTER_DEFLATE || filter == H5Z_FILTER_SHUFFLE || filter == H5Z_FILTER_FLETCHER32;
+}
+
+/// True when all filters that the dataset was written with are available.
+bool has_filters(hid_t creation) {
+  const int count = H5Pget_nfilters(creation);
+  for (int i = 0; i < count; ++i) {
+    unsigned flags = 0, settings = 0;
+    std::size_t values = 0;
+    const H5Z_filter_t filter =
+        H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, &settings);
+    if (!is_safe(filter) || H5Zfilter_avail(filter) <= 0) return false;
+  }
+  return count >= 0;
+}
+
+/// Returns the end of the written chunks along each kept dimension, if some are missing.
+std::vector<std::int64_t> written_part(hid_t dataset, hid_t space, const Hdf5Shape& shape,
+                                       const std::vector<std::int64_t>& chunk, hsize_t written) {
+  const auto part = [&](std::size_t i, hsize_t end) {
+    return std::min(shape.shape[i], static_cast<std::int64_t>(std::min(end, kMostPlaces)));
+  };
+  std::vector<std::int64_t> held(shape.shape.size(), 0);
+  for (std::size_t i = 0; i < held.size() && written > kMostListed; ++i)
+    held[i] = part(
+        i, std::min(written, kMostPlaces / static_cast<hsize_t>(chunk[i])) * static_cast<hsize_t>(chunk[i]));
+  for (hsize_t index = 0; index < written && written <= kMostListed; ++index) {
+    std::vector<hsize_t> at(shape.dimensions.size());
+    unsigned mask = 0;
+    haddr_t address = 0;
+    hsize_t size = 0;
+    if (H5Dget_chunk_info(dataset, space, index, at.data(), &mask, &address, &size) < 0) continue;
+    for (std::size_t i = 0; i < held.size(); ++i)
+      held[i] = std::max(held[i],
+                         part(i, std::min(at[shape.kept[i]], kMostPlaces) + static_cast<hsize_t>(chunk[i])));
+  }
+  return held;
+}
+
+std::optional<Hdf5Storage> chunk_storage(hid_t dataset, hid_t creation, const Hdf5Shape& shape,
+                                         double file_bytes, std::string& why) {
+  Hdf5Storage storage;
+  std::vector<hsize_t> chunk(shape.dimensions.size());
+  hsize_t written = 0;
+  const Hdf5Id space(H5Dget_space(dataset), H5Sclose), type(H5Dget_type(dataset), H5Tclose);
+  if (H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) < 0 ||
+      H5Dget_num_chunks(dataset, space, &written) < 0) {
+    why = "the index of its chunks is damaged";
+    return std::nullopt;
+  }
+  double bytes = static_cast<double>(H5Tget_size(type)), chunks = 1.0;
+  for (const hsize_t size : chunk) bytes *= static_cast<double>(size);
+  if (bytes > kStorageMostExpansion * file_bytes + kLeastChunk) {
+    why = "its chunks are larger than the file could hold";
+    return std::nullopt;
+  }
+  storage.chunk_bytes = static_cast<std::int64_t>(bytes);
+  for (std::size_t i = 0; i < shape.kept.size(); ++i) {
+    storage.chunk.push_back(static_cast<std::int64_t>(std::max<hsize_t>(1, chunk[shape.kept[i]])));
+    chunks *= std::ceil(static_cast<double>(shape.shape[i]) / static_cast<double>(storage.chunk[i]));
+  }
+  storage.has_holes = static_cast<double>(written) < chunks;
+  storage.unwritten = written == 0;
+  storage.held =
+      storage.has_holes ? written_part(dataset, space, shape, storage.chunk, written) : shape.shape;
+  return storage;
+}
 
 constexpr std::int64_t kMostNumbers = 1 << 14;  ///< of a record
 constexpr std::int64_t kMostElements = std::int64_t{1} << 53;
@@ -16,10 +105,35 @@ bool is_number(hid_t type) {
   return kind == H5T_INTEGER || kind == H5T_FLOAT;
 }
 
-std::int64_t product(const std::vector<std::int64_t>& sizes) {
-  std::int64_t all = 1;
-  for (const std::int64_t size : sizes) all *= size;
-  return all;
+/// Returns nullopt, with `why`, when the elements cannot be read.
+std::optional<Hdf5Storage> hdf5_storage(hid_t dataset, const Hdf5Shape& shape, std::int64_t file_bytes,
+                                        std::string& why) {
+  const Hdf5Id creation(H5Dget_create_plist(dataset), H5Pclose), type(H5Dget_type(dataset), H5Tclose);
+  if (H5Pget_external_count(creation) > 0) {
+    why = "its numbers are in another file, which is not read";
+    return std::nullopt;
+  }
+  if (!has_filters(creation)) {
+    why = "its compression is not gzip, the only one that can be read; write it again with gzip";
+    return std::nullopt;
+  }
+  const H5D_layout_t layout = H5Pget_layout(creation);
+  if (layout == H5D_CHUNKED)
+    return chunk_storage(dataset, creation, shape, static_cast<double>(file_bytes), why);
+  if (layout != H5D_COMPACT && layout != H5D_CONTIGUOUS) {
+    why =
+        "it has a layout that cannot be read, such as that of a virtual dataset; copy it into an ordinary "
+        "dataset";
+    return std::nullopt;
+  }
+  const haddr_t at = layout == H5D_COMPACT ? 0 : H5Dget_offset(dataset);
+  const bool in_file = at != HADDR_UNDEF && at < static_cast<haddr_t>(file_bytes);
+  const std::int64_t bytes = in_file ? file_bytes - static_cast<std::int64_t>(at) : 0;
+  const auto item = static_cast<std::int64_t>(std::max<std::size_t>(1, H5Tget_size(type)));
+  Hdf5Storage storage;
+  storage.elements_held = std::min(elements_of(shape.shape), bytes / item);
+  storage.unwritten = at == HADDR_UNDEF;
+  return storage;
 }
 
 }  // namespace
@@ -35,7 +149,10 @@ std::optional<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& path
   const Hdf5Id type(H5Dget_type(opened.dataset_), H5Tclose);
   if (!type.ok() || !opened.find_fields(type) || !opened.find_shape()) return std::nullopt;
   if (opened.shape_.size() > 2) return opened;  // only its shape is reported
-  if (!opened.find_storage(file_bytes, why)) return std::nullopt;
+  const auto storage =
+      hdf5_storage(opened.dataset_, {opened.dimensions_, opened.kept_, opened.shape_}, file_bytes, why);
+  if (!storage) return std::nullopt;
+  opened.storage_ = *storage;
   opened.path_ = path;
   return opened;
 }
@@ -110,12 +227,6 @@ bool Hdf5Dataset::find_fields(hid_t type) {
   return true;
 }
 
-bool Hdf5Dataset::find_storage(std::int64_t file_bytes, std::string& why) {
-  const auto storage = hdf5_storage(dataset_, {dimensions_, kept_, shape_}, file_bytes, why);
-  if (storage) storage_ = *storage;
-  return storage.has_value();
-}
-
 std::int64_t Hdf5Dataset::row_chunk_bytes(bool channel_major) const {
   if (storage_.chunk.empty()) return 0;
   if (shape_.size() < 2) return storage_.chunk_bytes;
@@ -133,14 +244,14 @@ void Hdf5Dataset::set_chunk_cache(hid_t file, std::int64_t bytes) {
 std::int64_t Hdf5Dataset::rows_held(bool channel_major) const {
   const std::int64_t rows = shape_[axis(channel_major)];
   if (!storage_.chunk.empty()) return storage_.held[axis(channel_major)];
-  if (shape_.size() < 2 || product(shape_) == 0) return std::min(rows, storage_.elements_held);
+  if (shape_.size() < 2 || elements_of(shape_) == 0) return std::min(rows, storage_.elements_held);
   return channel_major ? std::min(rows, storage_.elements_held) : storage_.elements_held / shape_[1];
 }
 
 std::int64_t Hdf5Dataset::columns_held(bool channel_major) const {
   if (shape_.size() < 2) return fields_[0].name.empty() ? 1 : std::numeric_limits<std::int64_t>::max();
   const std::int64_t columns = shape_[channel_major ? 0 : 1];
-  if (!storage_.chunk.empty() || !channel_major || product(shape_) == 0) return columns;
+  if (!storage_.chunk.empty() || !channel_major || elements_of(shape_) == 0) return columns;
   return std::max<std::int64_t>(storage_.elements_held / shape_[1], storage_.elements_held > 0 ? 1 : 0);
 }
 

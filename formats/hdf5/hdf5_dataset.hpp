@@ -8,15 +8,9 @@
 
 #include "formats/arrays/array_file.hpp"
 #include "formats/hdf5/hdf5_library.hpp"
+#include "lib/core/issue.hpp"
 
 namespace faultline {
-
-/// All dimensions of a dataset, and those that its shape keeps.
-struct Hdf5Shape {
-  std::vector<hsize_t> dimensions;
-  std::vector<std::size_t> kept;
-  std::vector<std::int64_t> shape;
-};
 
 /// Storage of the elements of a dataset. Vectors are along the kept dimensions.
 struct Hdf5Storage {
@@ -27,10 +21,6 @@ struct Hdf5Storage {
   bool has_holes = false;          ///< some chunks were never written
   std::int64_t elements_held = 0;  ///< of others: number from the front that the file can hold
 };
-
-/// Returns nullopt, with `why`, when the elements cannot be read.
-std::optional<Hdf5Storage> hdf5_storage(hid_t dataset, const Hdf5Shape& shape, std::int64_t file_bytes,
-                                        std::string& why);
 
 /// Numbers of one element of a dataset. A plain number is its own only field.
 struct Hdf5Field {
@@ -68,7 +58,6 @@ class Hdf5Dataset {
   bool find_shape();
   bool find_fields(hid_t type);
   bool add_member(hid_t type, unsigned index);
-  bool find_storage(std::int64_t file_bytes, std::string& why);
   bool read_block(bool channel_major, std::int64_t first, std::int64_t rows, std::int64_t column,
                   std::int64_t columns, double* to);
   bool read_rows(const Hdf5Field& field, const ArrayBand& band, std::int64_t first, std::int64_t rows,
@@ -89,5 +78,22 @@ class Hdf5Dataset {
   std::vector<double> block_;
   std::int64_t block_first_ = -1, block_rows_ = 0;  ///< rows in block_, of a dataset of records
 };
+
+/// The content of a file.
+struct Hdf5Tree {
+  std::vector<std::string> datasets;  ///< paths from the root, beginning with '/', in their order
+  std::string notes;                  ///< text stored by a written log, else empty
+  Issues issues;                      ///< groups that cannot be read
+};
+
+/// Walks through the groups; links to other places and files are not followed.
+Hdf5Tree hdf5_tree(hid_t file);
+
+/// Sets units and names of the fields of a dataset from its attributes and from the item names that pandas
+/// stores.
+void describe_hdf5_fields(hid_t file, const std::string& path, Hdf5Dataset& dataset);
+
+/// True when the MATLAB attributes of the dataset declare characters or cells.
+bool is_text_of_matlab(hid_t dataset);
 
 }  // namespace faultline

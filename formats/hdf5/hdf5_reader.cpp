@@ -14,13 +14,12 @@
 #include <map>
 #include <utility>
 
+#include "formats/arrays/array_file.hpp"
 #include "formats/arrays/array_notes.hpp"
-#include "formats/arrays/array_reader.hpp"
 #include "formats/arrays/array_table.hpp"
 #include "formats/hdf5/hdf5_dataset.hpp"
 #include "formats/hdf5/hdf5_format.hpp"
 #include "formats/hdf5/hdf5_library.hpp"
-#include "formats/hdf5/hdf5_tree.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/core/text.hpp"

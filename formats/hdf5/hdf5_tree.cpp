@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/hdf5/hdf5_tree.hpp"
-
 #include <fmt/format.h>
 
 #include <cstring>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "formats/arrays/array_notes.hpp"
+#include "formats/hdf5/hdf5_dataset.hpp"
 #include "formats/hdf5/hdf5_library.hpp"
 #include "lib/core/make_issue.hpp"
 #include "lib/core/text.hpp"

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "formats/arrays/written_arrays.hpp"
-#include "formats/matlab/mat5_file.hpp"
 #include "formats/matlab/matlab_format.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"

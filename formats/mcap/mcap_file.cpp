@@ -82,7 +82,7 @@ void McapFile::end_chunk() {
   if (inside.empty()) return;
   const std::string small = packed(inside, packing_);
   ByteBuilder content;
-  content.put(first_ns_).put(last_ns_).put(static_cast<std::uint64_t>(inside.size())).put(mcap_crc(inside));
+  content.put(first_ns_).put(last_ns_).put(static_cast<std::uint64_t>(inside.size())).put(crc32_of(inside));
   content.put_text(name_of(packing_)).put(static_cast<std::uint64_t>(small.size())).put_bytes(small);
   ChunkPlace place{first_ns_, last_ns_,     written_,      kMcapRecordHead + content.bytes().size(),
                    0,         small.size(), inside.size(), {}};
@@ -141,7 +141,7 @@ void McapFile::write_summary() {
   footer_head.put(static_cast<unsigned char>(McapOp::footer))
       .put(std::uint64_t{2 * kTime + sizeof(std::uint32_t)});
   footer_head.put(begin).put(std::uint64_t{0});
-  const std::uint32_t crc = mcap_crc(summary.bytes() + footer_head.bytes());
+  const std::uint32_t crc = crc32_of(summary.bytes() + footer_head.bytes());
   write(summary.bytes() + footer_head.put(crc).bytes());
 }
 

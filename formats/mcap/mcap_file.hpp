@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/bytes/byte_builder.hpp"
+#include "formats/bytes/little_endian.hpp"
 #include "formats/mcap/mcap_record.hpp"
 #include "lib/core/atomic_file.hpp"
 

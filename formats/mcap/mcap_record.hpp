@@ -29,7 +29,4 @@ inline constexpr std::size_t kMcapRecordHead = 9;
 /// True for the kinds of the specification; others are of a later version or damaged.
 constexpr bool is_mcap_op(unsigned char op) { return op >= 0x01 && op <= 0x0F; }
 
-/// Returns the checksum of chunks and of the summary: CRC-32 as in zlib.
-std::uint32_t mcap_crc(std::string_view bytes);
-
 }  // namespace faultline

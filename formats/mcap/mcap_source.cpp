@@ -9,14 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/bytes/byte_cursor.hpp"
+#include "formats/bytes/little_endian.hpp"
 #include "formats/bytes/unpack_block.hpp"
 #include "formats/mcap/mcap_format.hpp"
 #include "formats/mcap/mcap_record.hpp"
 #include "formats/mcap/mcap_records.hpp"
-#include "formats/mcap/mcap_topics.hpp"
-#include "formats/messages/joint_state_reader.hpp"
-#include "formats/messages/lost_messages.hpp"
+#include "formats/messages/message_source.hpp"
 #include "formats/provenance.hpp"
 #include "lib/core/issue.hpp"
 
@@ -45,70 +43,64 @@ std::uint64_t time_of_message(std::string_view content) {
 class McapChunk {
  public:
   /// Reads the definitions of the chunk, and sorts its messages if needed. `inside` must outlive the object.
-  void begin(std::string_view inside, McapTopics& topics);
+  void begin(std::string_view inside, McapTopics& topics) {
+    close();
+    all_ = left_ = inside;
+    bool sorted = true;
+    std::uint64_t before = 0;
+    std::size_t messages = 0;
+    McapOp op{};
+    for (std::string_view content; take_inside(inside, op, content);) {
+      if (op == McapOp::schema) topics.add_schema(content);
+      if (op == McapOp::channel) topics.add_channel(content);
+      if (op != McapOp::message) continue;
+      const std::uint64_t time = time_of_message(content);
+      sorted = sorted && before <= time;
+      before = time;
+      ++messages;
+    }
+    if (!sorted) sort(messages);
+  }
+
   /// Returns the content of the next message; false after the last.
-  bool next(std::string_view& content);
-  void close();
+  bool next(std::string_view& content) {
+    if (next_sorted_ < sorted_.size()) {
+      const Place& message = sorted_[next_sorted_++];
+      content = all_.substr(message.begin, message.size);
+      return true;
+    }
+    for (McapOp op{}; take_inside(left_, op, content);)
+      if (op == McapOp::message) return true;
+    close();
+    return false;
+  }
+
+  void close() {
+    all_ = left_ = {};
+    sorted_ = {};
+    next_sorted_ = 0;
+  }
 
  private:
   struct Place {
     std::uint64_t log_time_ns = 0;
     std::uint32_t begin = 0, size = 0;  ///< of the content in the chunk
   };
-  void sort(std::size_t messages);
+  void sort(std::size_t messages) {
+    sorted_.reserve(messages);
+    McapOp op{};
+    for (std::string_view content; take_inside(left_, op, content);)
+      if (op == McapOp::message)
+        sorted_.push_back({time_of_message(content), static_cast<std::uint32_t>(content.data() - all_.data()),
+                           static_cast<std::uint32_t>(content.size())});
+    std::stable_sort(sorted_.begin(), sorted_.end(),
+                     [](const Place& a, const Place& b) { return a.log_time_ns < b.log_time_ns; });
+  }
 
   std::string_view all_, left_;
   std::vector<Place> sorted_;  ///< empty if the chunk is sorted by time
   std::size_t next_sorted_ = 0;
 };
-
-void McapChunk::begin(std::string_view inside, McapTopics& topics) {
-  close();
-  all_ = left_ = inside;
-  bool sorted = true;
-  std::uint64_t before = 0;
-  std::size_t messages = 0;
-  McapOp op{};
-  for (std::string_view content; take_inside(inside, op, content);) {
-    if (op == McapOp::schema) topics.add_schema(content);
-    if (op == McapOp::channel) topics.add_channel(content);
-    if (op != McapOp::message) continue;
-    const std::uint64_t time = time_of_message(content);
-    sorted = sorted && before <= time;
-    before = time;
-    ++messages;
-  }
-  if (!sorted) sort(messages);
-}
-
-void McapChunk::sort(std::size_t messages) {
-  sorted_.reserve(messages);
-  McapOp op{};
-  for (std::string_view content; take_inside(left_, op, content);)
-    if (op == McapOp::message)
-      sorted_.push_back({time_of_message(content), static_cast<std::uint32_t>(content.data() - all_.data()),
-                         static_cast<std::uint32_t>(content.size())});
-  std::stable_sort(sorted_.begin(), sorted_.end(),
-                   [](const Place& a, const Place& b) { return a.log_time_ns < b.log_time_ns; });
-}
-
-bool McapChunk::next(std::string_view& content) {
-  if (next_sorted_ < sorted_.size()) {
-    const Place& message = sorted_[next_sorted_++];
-    content = all_.substr(message.begin, message.size);
-    return true;
-  }
-  for (McapOp op{}; take_inside(left_, op, content);)
-    if (op == McapOp::message) return true;
-  close();
-  return false;
-}
-
-void McapChunk::close() {
-  all_ = left_ = {};
-  sorted_ = {};
-  next_sorted_ = 0;
-}
 
 /// Compares the records of an MCAP file, read from front to back, with its summary. The data are right; an
 /// issue reports a summary that contradicts them.
@@ -116,12 +108,41 @@ class McapIndex {
  public:
   void met_message() { ++messages_; }
   /// Adds the chunk record at this byte; `size` includes its head.
-  void met_chunk(std::int64_t begin, std::int64_t size);
+  void met_chunk(std::int64_t begin, std::int64_t size) { chunks_.emplace(begin, size); }
   /// Content of a chunk index or statistics record of the summary.
-  void check_chunk_index(std::string_view content);
-  void check_statistics(std::string_view content);
+  void check_chunk_index(std::string_view content) {
+    ByteCursor record(content);
+    record.take<std::uint64_t>();  // first and last time
+    record.take<std::uint64_t>();
+    const auto begin = static_cast<std::int64_t>(record.take<std::uint64_t>());
+    const auto size = static_cast<std::int64_t>(record.take<std::uint64_t>());
+    const auto chunk = chunks_.find(begin);
+    ++indexed_;
+    wrong_chunks_ += !record.ok() || chunk == chunks_.end() || chunk->second != size;
+  }
+
+  void check_statistics(std::string_view content) {
+    ByteCursor record(content);
+    const auto messages = static_cast<std::int64_t>(record.take<std::uint64_t>());
+    if (record.ok()) messages_told_ = messages;
+  }
+
   /// Adds the errors of the summary; nothing for a damaged file.
-  void tell(bool damaged, Issues& issues) const;
+  void tell(bool damaged, Issues& issues) const {
+    if (damaged) return;
+    if (wrong_chunks_ > 0)
+      issues.add(
+          {"index_wrong", "", Severity::warning,
+           fmt::format("the index at the end of the file is wrong about {} of its {} chunks; the data were "
+                       "read without it",
+                       wrong_chunks_, indexed_)});
+    if (messages_told_ >= 0 && messages_told_ != messages_)
+      issues.add(
+          {"index_wrong", "", Severity::warning,
+           fmt::format("the statistics at the end of the file count {} messages, but the file has {}; the "
+                       "data were read without the statistics",
+                       messages_told_, messages_)});
+  }
 
  private:
   std::int64_t messages_ = 0;
@@ -129,41 +150,6 @@ class McapIndex {
   std::int64_t indexed_ = 0, wrong_chunks_ = 0;
   std::int64_t messages_told_ = -1;  ///< -1: no statistics
 };
-
-void McapIndex::met_chunk(std::int64_t begin, std::int64_t size) { chunks_.emplace(begin, size); }
-
-void McapIndex::check_chunk_index(std::string_view content) {
-  ByteCursor record(content);
-  record.take<std::uint64_t>();  // first and last time
-  record.take<std::uint64_t>();
-  const auto begin = static_cast<std::int64_t>(record.take<std::uint64_t>());
-  const auto size = static_cast<std::int64_t>(record.take<std::uint64_t>());
-  const auto chunk = chunks_.find(begin);
-  ++indexed_;
-  wrong_chunks_ += !record.ok() || chunk == chunks_.end() || chunk->second != size;
-}
-
-void McapIndex::check_statistics(std::string_view content) {
-  ByteCursor record(content);
-  const auto messages = static_cast<std::int64_t>(record.take<std::uint64_t>());
-  if (record.ok()) messages_told_ = messages;
-}
-
-void McapIndex::tell(bool damaged, Issues& issues) const {
-  if (damaged) return;
-  if (wrong_chunks_ > 0)
-    issues.add(
-        {"index_wrong", "", Severity::warning,
-         fmt::format("the index at the end of the file is wrong about {} of its {} chunks; the data were "
-                     "read without it",
-                     wrong_chunks_, indexed_)});
-  if (messages_told_ >= 0 && messages_told_ != messages_)
-    issues.add(
-        {"index_wrong", "", Severity::warning,
-         fmt::format("the statistics at the end of the file count {} messages, but the file has {}; the "
-                     "data were read without the statistics",
-                     messages_told_, messages_)});
-}
 
 std::optional<BlockPacking> mcap_packing(std::string_view name) {
   if (name.empty()) return BlockPacking::none;
@@ -175,20 +161,15 @@ std::optional<BlockPacking> mcap_packing(std::string_view name) {
 class McapSource : public MessageSource {
  public:
   explicit McapSource(std::unique_ptr<ByteSource> bytes)
-      : bytes_(std::move(bytes)),
+      : MessageSource(std::move(bytes)),
         window_(*bytes_),
         topics_(bytes_->path()),
         records_(window_, topics_, issues_) {
     records_.start(size_if_known());
   }
 
-  const std::string& path() const override { return bytes_->path(); }
   const char* format() const override { return "mcap"; }
   const std::vector<Topic>& topics() const override { return topics_.all(); }
-  const Issues& issues() const override { return issues_; }
-  const std::string& sha256() const override { return bytes_->sha256(); }
-  double share_read() const override { return bytes_->share_read(); }
-  void spend(std::int64_t work_ns) override { bytes_->spend(work_ns); }
 
   bool next(Message& message) override {
     while (!at_end_) {
@@ -316,7 +297,7 @@ class McapSource : public MessageSource {
       inside = unpacked_.view();
       bytes_->spend(block_work_ns(*packing, static_cast<std::int64_t>(inside.size())));
     }
-    const bool wrong = sound && checksum != 0 && mcap_crc(inside) != checksum;
+    const bool wrong = sound && checksum != 0 && crc32_of(inside) != checksum;
     if (records_.is_cut())
       lose_chunk("the file ends inside it; the data before the cut are read", false);
     else if (!sound || wrong)
@@ -348,10 +329,8 @@ class McapSource : public MessageSource {
     issues_.merge(bytes_->issues());
   }
 
-  std::unique_ptr<ByteSource> bytes_;
   ByteWindow window_;
   McapTopics topics_;
-  Issues issues_;
   McapRecords records_;
   McapIndex index_;
   BlockBytes unpacked_;          ///< the open chunk, if it was compressed

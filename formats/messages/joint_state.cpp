@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/messages/joint_streams.hpp"
-#include "formats/missing.hpp"
+#include "lib/log/raw_reader.hpp"
 
 namespace faultline {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "formats/messages/joint_state_reader.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,9 +10,10 @@
 #include "formats/bytes/work_budget.hpp"
 #include "formats/messages/joint_layout.hpp"
 #include "formats/messages/message_issues.hpp"
-#include "formats/missing.hpp"
+#include "formats/messages/message_source.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/issue.hpp"
+#include "lib/log/raw_reader.hpp"
 
 namespace faultline {
 namespace {
@@ -43,29 +42,26 @@ double distance(const std::vector<double>& position, const std::vector<double>& 
 class AlternatingRows {
  public:
   /// Adds the positions of all joints, always in the same order.
-  void add(const std::vector<double>& position);
+  void add(const std::vector<double>& position) {
+    if (!one_before_.empty()) {
+      const double to_last = distance(position, last_);
+      alternating_ += to_last > kApart && distance(position, one_before_) < kNear * to_last;
+      ++rows_;
+    }
+    one_before_.swap(last_);
+    last_ = position;
+  }
+
   /// True when most of the rows so far alternate.
-  bool alternate() const;
+  bool alternate() const {
+    return rows_ >= kFewestJointRows &&
+           static_cast<double>(alternating_) > kMostShare * static_cast<double>(rows_);
+  }
 
  private:
   std::vector<double> last_, one_before_;
   std::int64_t rows_ = 0, alternating_ = 0;
 };
-
-void AlternatingRows::add(const std::vector<double>& position) {
-  if (!one_before_.empty()) {
-    const double to_last = distance(position, last_);
-    alternating_ += to_last > kApart && distance(position, one_before_) < kNear * to_last;
-    ++rows_;
-  }
-  one_before_.swap(last_);
-  last_ = position;
-}
-
-bool AlternatingRows::alternate() const {
-  return rows_ >= kFewestJointRows &&
-         static_cast<double>(alternating_) > kMostShare * static_cast<double>(rows_);
-}
 
 /// Delay from the stamps in the headers to the receipt of the messages.
 class ReceiptGap {
@@ -78,8 +74,16 @@ class ReceiptGap {
     sum_s_ += gap_s;
     ++messages_;
   }
+
   /// Adds a note when some delay is not 0.
-  void tell(Issues& issues) const;
+  void tell(Issues& issues) const {
+    if (messages_ == 0 || (least_s_ == 0.0 && most_s_ == 0.0)) return;
+    issues.add({"receipt_gap", "t", Severity::note,
+                fmt::format("the messages were received {:.4g} s after the stamps in their headers on "
+                            "average, between {:.4g} and {:.4g} s. To choose the time, name it in the robot "
+                            "file: [log] time = \"header\" or \"receipt\"",
+                            sum_s_ / static_cast<double>(messages_), least_s_, most_s_)});
+  }
 
  private:
   double least_s_ = std::numeric_limits<double>::infinity();
@@ -87,15 +91,6 @@ class ReceiptGap {
   double sum_s_ = 0.0;
   std::int64_t messages_ = 0;
 };
-
-void ReceiptGap::tell(Issues& issues) const {
-  if (messages_ == 0 || (least_s_ == 0.0 && most_s_ == 0.0)) return;
-  issues.add({"receipt_gap", "t", Severity::note,
-              fmt::format("the messages were received {:.4g} s after the stamps in their headers on "
-                          "average, between {:.4g} and {:.4g} s. To choose the time, name it in the robot "
-                          "file: [log] time = \"header\" or \"receipt\"",
-                          sum_s_ / static_cast<double>(messages_), least_s_, most_s_)});
-}
 
 /// Converts to s: exactly for stamps that count from a start, to 2e-7 s for those since 1970.
 double seconds_of(std::int64_t nanoseconds) {
@@ -115,9 +110,7 @@ class JointStateReader : public RawReader {
   }
 
   const std::vector<RawColumn>& columns() const override { return layout_.columns; }
-  const LogIdentity& identity() const override { return identity_; }
   double share_read() const override { return source_->share_read(); }
-  void want(const std::vector<bool>& columns) override { wanted_ = columns; }
 
   void choose(const RecordingChoice& choice) override {
     layout_ = layout_joints(source_->topics(), streams_.streams(), choice, identity_.path);
@@ -338,7 +331,6 @@ class JointStateReader : public RawReader {
   std::unique_ptr<MessageSource> source_;
   JointStreams streams_;
   JointLayout layout_;
-  std::vector<bool> wanted_;
   std::vector<double*> values_;  ///< of the block that is being filled; null for columns not wanted
   std::vector<int> held_columns_;
   std::vector<double> held_;  ///< by column: the latest value of the other streams
@@ -348,7 +340,6 @@ class JointStateReader : public RawReader {
   std::vector<double> positions_;  ///< of the present row, by joint
   RivalStreams rivals_;
   bool at_end_ = false;
-  LogIdentity identity_;
   Issues issues_;
   mutable Issues all_issues_;
 };

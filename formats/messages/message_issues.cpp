@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "formats/missing.hpp"
 #include "lib/core/text.hpp"
+#include "lib/log/raw_reader.hpp"
 
 namespace faultline {
 namespace {
@@ -14,6 +14,11 @@ namespace {
 constexpr std::size_t kNamedTopics = 20, kNamedJoints = 8;
 
 std::string name_of(const Topic& topic) { return shortened(topic.name, kLongestName); }
+
+/// Returns the issue of a row, with so many rows left out from it on.
+Issue of_row(const char* code, Severity severity, std::int64_t row, std::string message, std::int64_t lost) {
+  return {code, "", severity, std::move(message), row, kNan, lost, lost};
+}
 
 }  // namespace
 
@@ -29,53 +34,35 @@ std::string topics_sentence(const std::vector<Topic>& topics) {
 
 Issue lost_row(std::int64_t row, bool with_its_block) {
   if (with_its_block)
-    return {"messages_lost",
-            "",
-            Severity::severe,
-            fmt::format("message {} of the joints was in a damaged part of the file and is lost", row),
-            row,
-            kNan,
-            1,
-            1};
-  return {"message_damaged",
-          "",
-          Severity::warning,
-          fmt::format("message {} of the joints cannot be read: its lengths do not fit its size", row),
-          row,
-          kNan,
-          1,
-          1};
+    return of_row("messages_lost", Severity::severe, row,
+                  fmt::format("message {} of the joints was in a damaged part of the file and is lost", row),
+                  1);
+  return of_row("message_damaged", Severity::warning, row,
+                fmt::format("message {} of the joints cannot be read: its lengths do not fit its size", row),
+                1);
 }
 
 Issue late_row(std::int64_t row, const Topic& topic) {
-  return {"joints_appear_late",
-          "",
-          Severity::severe,
-          fmt::format("message {} of \"{}\" names joints that no earlier message named, or joints in more "
-                      "orders than a recording has; it was left out",
-                      row, name_of(topic)),
-          row,
-          kNan,
-          1,
-          1};
+  return of_row(
+      "joints_appear_late", Severity::severe, row,
+      fmt::format("message {} of \"{}\" names joints that no earlier message named, or joints in more "
+                  "orders than a recording has; it was left out",
+                  row, name_of(topic)),
+      1);
 }
 
 Issue joints_changed(const JointStream& stream, const Topic& topic, std::int64_t first, std::int64_t rows) {
   std::string joints;
   for (std::size_t j = 0; j < std::min(kNamedJoints, stream.joints.size()); ++j)
     joints += (j > 0 ? ", " : "") + shortened(stream.joints[j], kLongestName);
-  return {"joints_changed",
-          "",
-          Severity::severe,
-          fmt::format("from row {} on, all messages are of \"{}\" with the joints {}, which are not those "
-                      "of the log: names or topic changed, or the recording continues with another robot. "
-                      "These messages were left out; to read them instead, name their [log] topic and "
-                      "joints in a robot file",
-                      first, name_of(topic), joints),
-          first,
-          kNan,
-          rows,
-          rows};
+  return of_row(
+      "joints_changed", Severity::severe, first,
+      fmt::format("from row {} on, all messages are of \"{}\" with the joints {}, which are not those "
+                  "of the log: names or topic changed, or the recording continues with another robot. "
+                  "These messages were left out; to read them instead, name their [log] topic and "
+                  "joints in a robot file",
+                  first, name_of(topic), joints),
+      rows);
 }
 
 Issue damaged_message(const Topic& topic) {

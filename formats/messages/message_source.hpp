@@ -3,13 +3,16 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "formats/byte_source.hpp"
 #include "lib/core/issue.hpp"
+#include "lib/log/raw_reader.hpp"
 
 namespace faultline {
 
@@ -52,8 +55,9 @@ struct Message {
 /// failure to read the file throws Error(input).
 class MessageSource {
  public:
+  explicit MessageSource(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {}
   virtual ~MessageSource() = default;
-  virtual const std::string& path() const = 0;
+  const std::string& path() const { return bytes_->path(); }
   virtual const char* format() const = 0;
   /// Topics met so far; the list only grows.
   virtual const std::vector<Topic>& topics() const = 0;
@@ -61,12 +65,61 @@ class MessageSource {
   virtual bool next(Message& message) = 0;
   /// Starts again, with issues empty; the topics stay.
   virtual void rewind() = 0;
-  virtual const Issues& issues() const = 0;
+  const Issues& issues() const { return issues_; }
   /// Counts work on the message, see WorkBudget.
-  virtual void spend(std::int64_t work_ns) = 0;
+  virtual void spend(std::int64_t work_ns) { bytes_->spend(work_ns); }
   /// SHA-256 of the file once its end was reached, empty before.
-  virtual const std::string& sha256() const = 0;
-  virtual double share_read() const = 0;
+  const std::string& sha256() const { return bytes_->sha256(); }
+  virtual double share_read() const { return bytes_->share_read(); }
+
+ protected:
+  std::unique_ptr<ByteSource> bytes_;
+  Issues issues_;
 };
+
+/// Finds the messages that are missing in damaged chunks by the index after each chunk. Channels have the
+/// numbers of the file.
+class LostMessages {
+ public:
+  /// Begins a chunk, which is complete unless lose() is called.
+  void begin_chunk();
+  void lose() { lossy_ = true; }
+  bool is_lossy() const { return lossy_; }
+  /// Counts a message of the chunk that was handed out.
+  void met(std::uint32_t channel) { ++met_[channel]; }
+  /// Takes the index after the chunk; messages of a topic beyond those counted by met() are missing.
+  void told(std::uint32_t channel, std::size_t messages, int topic);
+  /// Returns the next missing message; false when there is none.
+  bool next(Message& message);
+
+ private:
+  std::map<std::uint32_t, std::size_t> met_;  ///< in the present chunk
+  std::vector<int> topics_;                   ///< of missing messages
+  std::size_t given_ = 0;
+  bool lossy_ = false;
+};
+
+/// Opens the sensor_msgs/JointState messages of a recording as a table. The joints are found in its first
+/// part; messages with other joints later are reported as issues. Throws Error(input) without such messages.
+std::unique_ptr<RawReader> read_joint_states(std::unique_ptr<MessageSource> source);
+
+/// Topics under which this program writes a log: the joints with position, velocity and torque, the commands,
+/// the separately measured torques, and the channels without a canonical meaning, with their names as joint
+/// names.
+inline constexpr const char* kStatesTopic = "/joint_states";
+inline constexpr const char* kCommandsTopic = "/joint_commands";
+inline constexpr const char* kMeasuredTopic = "/joint_torques_measured";
+inline constexpr const char* kExtraTopic = "/faultline/extra";
+
+/// Results of a diagnosis: positions and velocities predicted one step ahead, with the torque that the
+/// healthy robot needs for the motion; residuals; the evidence of each fault over time, one topic per fault.
+inline constexpr const char* kPredictedTopic = "/faultline/predicted";
+inline constexpr const char* kResidualsTopic = "/faultline/residuals";
+inline constexpr const char* kEvidenceTopic = "/faultline/evidence";
+
+/// True for joint states that a diagnosis computed; they are not part of the log.
+constexpr bool is_computed(std::string_view topic) {
+  return topic == kPredictedTopic || topic == kResidualsTopic;
+}
 
 }  // namespace faultline

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "formats/native/native_chunks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
 
-#include "formats/missing.hpp"
+#include "formats/native/native_layout.hpp"
 #include "formats/provenance.hpp"
+#include "lib/log/raw_reader.hpp"
 
 namespace faultline {
 namespace {

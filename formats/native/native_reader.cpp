@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/byte_window.hpp"
-#include "formats/native/native_chunks.hpp"
+#include "formats/byte_source.hpp"
 #include "formats/native/native_format.hpp"
 #include "formats/native/native_layout.hpp"
 #include "lib/core/error.hpp"
@@ -138,8 +137,6 @@ class NativeReader : public RawReader {
   }
 
   const std::vector<RawColumn>& columns() const override { return columns_; }
-  void want(const std::vector<bool>& columns) override { wanted_ = columns; }
-  const LogIdentity& identity() const override { return identity_; }
   const Issues& issues() const override { return issues_; }
   bool canonical() const override { return true; }
   double share_read() const override { return bytes_->share_read(); }
@@ -198,11 +195,9 @@ class NativeReader : public RawReader {
   std::unique_ptr<ByteSource> bytes_;
   ByteWindow window_;
   std::vector<RawColumn> columns_;
-  std::vector<bool> wanted_;
   std::optional<NativeChunks> chunks_;
   std::int64_t given_ = 0;       ///< rows of the present chunk, handed out
   std::int64_t rows_given_ = 0;  ///< since the beginning
-  LogIdentity identity_;
   Issues issues_;
 };
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "formats/channel_list.hpp"
+#include "formats/log_writer.hpp"
 #include "formats/native/native_format.hpp"
 #include "formats/native/native_layout.hpp"
 #include "lib/core/atomic_file.hpp"

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "formats/arrays/stored_arrays.hpp"
+#include "formats/arrays/stored_content.hpp"
+#include "lib/core/issue.hpp"
 
 namespace faultline {
 

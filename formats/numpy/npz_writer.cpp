@@ -55,12 +55,11 @@ class NpzWriter : public LogWriter {
  private:
   void add(const std::string& name, std::string_view header, std::string_view values) {
     const std::uint64_t size = header.size() + values.size();
-    auto crc = ::crc32_z(0, reinterpret_cast<const Bytef*>(header.data()), header.size());
-    if (!values.empty()) crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(values.data()), values.size());
+    const std::uint32_t crc = crc32_of(values, crc32_of(header));
     std::string common;
     for (const std::uint16_t field : {kVersion, std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0}, kDate})
       put(common, field);
-    put(common, static_cast<std::uint32_t>(crc));
+    put(common, crc);
     for (int i = 0; i < 2; ++i) put(common, kIn64);
     put(common, static_cast<std::uint16_t>(name.size()));
     std::string local = "PK\x03\x04" + common, extra;

@@ -28,7 +28,6 @@ class ContinuedReader : public RawReader {
   bool canonical() const override {
     return std::all_of(files_.begin(), files_.end(), [](const auto& file) { return file->canonical(); });
   }
-  const LogIdentity& identity() const override { return identity_; }
 
   double share_read() const override {
     const double share = at_ < files_.size() ? files_[at_]->share_read() : 0.0;
@@ -137,8 +136,6 @@ class ContinuedReader : public RawReader {
   std::size_t at_ = 0;                        ///< file that is being read
   std::int64_t rows_before_ = 0;              ///< of the files before it
   RawBlock theirs_;
-  std::vector<bool> wanted_;
-  LogIdentity identity_;
   mutable Issues issues_;
 };
 

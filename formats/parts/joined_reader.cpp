@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "formats/missing.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/core/issue.hpp"
@@ -35,13 +34,11 @@ struct RawTime {
   int nanoseconds = -1;  ///< second column of a time in seconds and nanoseconds; -1 for none
   double factor = 1.0;   ///< to s
 
-  double at(const RawBlock& block, int row) const;
+  double at(const RawBlock& block, int row) const {
+    const double seconds = factor * block.columns[column][row];
+    return nanoseconds < 0 ? seconds : seconds + 1e-9 * block.columns[nanoseconds][row];
+  }
 };
-
-double RawTime::at(const RawBlock& block, int row) const {
-  const double seconds = factor * block.columns[column][row];
-  return nanoseconds < 0 ? seconds : seconds + 1e-9 * block.columns[nanoseconds][row];
-}
 
 /// Returns the time column that the file declares, else one with a suitable name; nullopt for none.
 std::optional<RawTime> find_raw_time(const std::vector<RawColumn>& columns) {
@@ -67,12 +64,49 @@ class Partner {
   RawReader& reader() { return *reader_; }
   /// Writes the values of the file's columns into values[column][row], for a row of the other file with this
   /// number and time.
-  void give(std::int64_t number, double time_s, int row, const std::vector<double*>& values);
+  void give(std::int64_t number, double time_s, int row, const std::vector<double*>& values) {
+    ++asked_;
+    if (time_)
+      give_by_time(time_s, row, values);
+    else
+      give_by_row(number, row, values);
+  }
+
   /// After the last give() of a join by row, counts the rows that were never requested.
-  void read_rest();
-  void rewind();
+  void read_rest() {
+    if (time_) return;
+    while (next_row()) ++passed_;
+  }
+
+  void rewind() {
+    reader_->rewind();
+    block_ = {};
+    at_ = -1;
+    ended_ = has_before_ = has_behind_ = false;
+    step_s_ = 0.0;
+    without_ = between_ = asked_ = passed_ = 0;
+  }
+
   /// Returns the issues of the file and of the match of its rows.
-  Issues issues() const;
+  Issues issues() const {
+    Issues issues = reader_->issues();
+    const std::string& path = reader_->identity().path;
+    if (without_ > 0)
+      issues.add({"join_without_partner", "", Severity::warning,
+                  fmt::format("{} of {} rows have no matching row in {}; its values are missing there",
+                              without_, asked_, path)});
+    if (passed_ > 0)
+      issues.add(
+          {"join_rows_left", "", Severity::warning,
+           fmt::format("{} rows of {} match no row of the log: {}", passed_, path,
+                       time_ ? "their time goes backward or is missing" : "they follow its last row")});
+    if (between_ > 0)
+      issues.add(
+          {"join_interpolated", "", Severity::note,
+           fmt::format("{} of {} rows lie between two rows of {}; its values were interpolated linearly",
+                       between_, asked_, path)});
+    return issues;
+  }
 
  private:
   /// One row of the file.
@@ -81,11 +115,62 @@ class Partner {
     std::vector<double> values;
   };
 
-  bool next_row();
-  void read_sample(Sample& sample);
-  bool advance();
-  void give_by_row(std::int64_t number, int row, const std::vector<double*>& values);
-  void give_by_time(double time_s, int row, const std::vector<double*>& values);
+  bool next_row() {
+    if (++at_ < block_.rows) return true;
+    at_ = 0;
+    if (!ended_) ended_ = !reader_->next(block_, kPartnerRowsAtOnce);
+    if (ended_) block_.rows = 0;
+    return !ended_;
+  }
+
+  void read_sample(Sample& sample) {
+    sample.time_s = time_->at(block_, at_);
+    sample.values.resize(block_.columns.size());
+    for (std::size_t c = 0; c < block_.columns.size(); ++c) sample.values[c] = block_.columns[c][at_];
+  }
+
+  /// Moves to the next row with a later time than the last one; other rows cannot be found by time.
+  bool advance() {
+    if (has_behind_) {
+      if (has_before_) step_s_ = behind_.time_s - before_.time_s;
+      std::swap(before_, behind_);
+      has_before_ = true;
+    }
+    has_behind_ = false;
+    while (!has_behind_ && next_row()) {
+      read_sample(behind_);
+      has_behind_ = std::isfinite(behind_.time_s) && (!has_before_ || behind_.time_s > before_.time_s);
+      passed_ += !has_behind_;
+    }
+    return has_behind_;
+  }
+
+  void give_by_row(std::int64_t number, int row, const std::vector<double*>& values) {
+    while (!ended_ && (block_.rows == 0 || block_.first_row + at_ < number)) next_row();
+    const bool there = !ended_ && block_.first_row + at_ == number;
+    without_ += !there;
+    for (std::size_t c = 0; c < values.size(); ++c)
+      if (values[c]) values[c][row] = there ? block_.columns[c][at_] : kNan;
+  }
+
+  void give_by_time(double time_s, int row, const std::vector<double*>& values) {
+    while ((!has_behind_ || behind_.time_s < time_s) && advance()) {
+    }
+    const bool exact = has_behind_ && behind_.time_s == time_s;
+    const double gap_s = has_before_ && has_behind_ ? behind_.time_s - before_.time_s : 0.0;
+    const bool near =
+        gap_s > 0.0 && (step_s_ <= 0.0 || gap_s <= kWidestGap * step_s_) && before_.time_s < time_s;
+    without_ += !exact && !near;
+    between_ += !exact && near;
+    const double share = exact ? 1.0 : (near ? (time_s - before_.time_s) / gap_s : kNan);
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      if (!values[c]) continue;
+      if (exact)
+        values[c][row] = behind_.values[c];
+      else
+        values[c][row] = near ? before_.values[c] + share * (behind_.values[c] - before_.values[c]) : kNan;
+    }
+  }
 
   std::unique_ptr<RawReader> reader_;
   std::optional<RawTime> time_;
@@ -100,103 +185,6 @@ class Partner {
 
 Partner::Partner(std::unique_ptr<RawReader> reader, std::optional<RawTime> time)
     : reader_(std::move(reader)), time_(time) {}
-
-void Partner::rewind() {
-  reader_->rewind();
-  block_ = {};
-  at_ = -1;
-  ended_ = has_before_ = has_behind_ = false;
-  step_s_ = 0.0;
-  without_ = between_ = asked_ = passed_ = 0;
-}
-
-bool Partner::next_row() {
-  if (++at_ < block_.rows) return true;
-  at_ = 0;
-  if (!ended_) ended_ = !reader_->next(block_, kPartnerRowsAtOnce);
-  if (ended_) block_.rows = 0;
-  return !ended_;
-}
-
-void Partner::give(std::int64_t number, double time_s, int row, const std::vector<double*>& values) {
-  ++asked_;
-  if (time_)
-    give_by_time(time_s, row, values);
-  else
-    give_by_row(number, row, values);
-}
-
-void Partner::give_by_row(std::int64_t number, int row, const std::vector<double*>& values) {
-  while (!ended_ && (block_.rows == 0 || block_.first_row + at_ < number)) next_row();
-  const bool there = !ended_ && block_.first_row + at_ == number;
-  without_ += !there;
-  for (std::size_t c = 0; c < values.size(); ++c)
-    if (values[c]) values[c][row] = there ? block_.columns[c][at_] : kNan;
-}
-
-void Partner::read_sample(Sample& sample) {
-  sample.time_s = time_->at(block_, at_);
-  sample.values.resize(block_.columns.size());
-  for (std::size_t c = 0; c < block_.columns.size(); ++c) sample.values[c] = block_.columns[c][at_];
-}
-
-void Partner::read_rest() {
-  if (time_) return;
-  while (next_row()) ++passed_;
-}
-
-/// Moves to the next row with a later time than the last one; other rows cannot be found by time.
-bool Partner::advance() {
-  if (has_behind_) {
-    if (has_before_) step_s_ = behind_.time_s - before_.time_s;
-    std::swap(before_, behind_);
-    has_before_ = true;
-  }
-  has_behind_ = false;
-  while (!has_behind_ && next_row()) {
-    read_sample(behind_);
-    has_behind_ = std::isfinite(behind_.time_s) && (!has_before_ || behind_.time_s > before_.time_s);
-    passed_ += !has_behind_;
-  }
-  return has_behind_;
-}
-
-void Partner::give_by_time(double time_s, int row, const std::vector<double*>& values) {
-  while ((!has_behind_ || behind_.time_s < time_s) && advance()) {
-  }
-  const bool exact = has_behind_ && behind_.time_s == time_s;
-  const double gap_s = has_before_ && has_behind_ ? behind_.time_s - before_.time_s : 0.0;
-  const bool near =
-      gap_s > 0.0 && (step_s_ <= 0.0 || gap_s <= kWidestGap * step_s_) && before_.time_s < time_s;
-  without_ += !exact && !near;
-  between_ += !exact && near;
-  const double share = exact ? 1.0 : (near ? (time_s - before_.time_s) / gap_s : kNan);
-  for (std::size_t c = 0; c < values.size(); ++c) {
-    if (!values[c]) continue;
-    if (exact)
-      values[c][row] = behind_.values[c];
-    else
-      values[c][row] = near ? before_.values[c] + share * (behind_.values[c] - before_.values[c]) : kNan;
-  }
-}
-
-Issues Partner::issues() const {
-  Issues issues = reader_->issues();
-  const std::string& path = reader_->identity().path;
-  if (without_ > 0)
-    issues.add({"join_without_partner", "", Severity::warning,
-                fmt::format("{} of {} rows have no matching row in {}; its values are missing there",
-                            without_, asked_, path)});
-  if (passed_ > 0)
-    issues.add({"join_rows_left", "", Severity::warning,
-                fmt::format("{} rows of {} match no row of the log: {}", passed_, path,
-                            time_ ? "their time goes backward or is missing" : "they follow its last row")});
-  if (between_ > 0)
-    issues.add({"join_interpolated", "", Severity::note,
-                fmt::format("{} of {} rows lie between two rows of {}; its values were interpolated linearly",
-                            between_, asked_, path)});
-  return issues;
-}
 
 /// Returns one hash for several files; empty until all are known.
 std::string hash_of_hashes(const std::vector<std::string>& hashes) {
@@ -220,7 +208,6 @@ class JoinedReader : public RawReader {
 
   const std::vector<RawColumn>& columns() const override { return columns_; }
   bool canonical() const override { return false; }
-  const LogIdentity& identity() const override { return identity_; }
   double share_read() const override { return first_->share_read(); }
 
   void want(const std::vector<bool>& columns) override {
@@ -321,8 +308,6 @@ class JoinedReader : public RawReader {
   std::vector<RawColumn> columns_;
   std::optional<RawTime> time_;  ///< of the first file, if some file is joined by time
   std::vector<Joined> joined_;
-  std::vector<bool> wanted_;
-  LogIdentity identity_;
   mutable Issues issues_;
 };
 

@@ -2,22 +2,111 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <vector>
 
-#include "formats/byte_window.hpp"
-#include "formats/bytes/byte_cursor.hpp"
+#include "formats/byte_source.hpp"
+#include "formats/bytes/little_endian.hpp"
 #include "formats/bytes/unpack_block.hpp"
-#include "formats/messages/joint_state_reader.hpp"
-#include "formats/messages/lost_messages.hpp"
-#include "formats/rosbag/rosbag1_record.hpp"
+#include "formats/messages/message_source.hpp"
 #include "formats/rosbag/rosbag_format.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {
 namespace {
+
+/// Kinds of records of a ROS 1 bag, version 2.0 (wiki.ros.org/Bags/Format/2.0).
+enum class Rosbag1Op : unsigned char {
+  message = 0x02,
+  bag_header = 0x03,
+  index = 0x04,
+  chunk = 0x05,
+  chunk_info = 0x06,
+  connection = 0x07,
+};
+
+inline constexpr std::string_view kRosbag1Magic = "#ROSBAG V2.0\n";
+
+/// The fields of a header of name=value pairs, each after its length. Missing fields are empty.
+class Rosbag1Fields {
+ public:
+  explicit Rosbag1Fields(std::string_view header) : header_(header) {}
+  std::string_view text(std::string_view name) const {
+    ByteCursor header(header_);
+    while (!header.rest().empty()) {
+      const std::string_view field = header.text();
+      const auto sign = field.find('=');
+      if (!header.ok()) break;
+      if (field.substr(0, sign) == name && sign != std::string_view::npos) return field.substr(sign + 1);
+    }
+    return {};
+  }
+
+  /// Returns a little-endian number; 0 when it is missing or of another size.
+  std::uint32_t word(std::string_view name) const {
+    const std::string_view bytes = text(name);
+    return bytes.size() == sizeof(std::uint32_t) ? ByteCursor(bytes).take<std::uint32_t>() : 0;
+  }
+
+  /// Converts a time in seconds and nanoseconds to ns.
+  std::int64_t time(std::string_view name) const {
+    constexpr std::int64_t kSecond = 1'000'000'000;
+    ByteCursor bytes(text(name));
+    const std::int64_t seconds = bytes.take<std::uint32_t>();
+    return seconds * kSecond + bytes.take<std::uint32_t>();
+  }
+
+  /// True when it has an operation code; the code.
+  bool has_op() const { return text("op").size() == 1; }
+  Rosbag1Op op() const { return static_cast<Rosbag1Op>(text("op")[0]); }
+
+ private:
+  std::string_view header_;
+};
+
+/// A record at the front of `bytes`: a header and its data, each after its length.
+struct Rosbag1Record {
+  Rosbag1Fields fields{""};
+  std::string_view data;
+  std::size_t size = 0;  ///< of the whole record; 0 when it is incomplete
+};
+
+Rosbag1Record rosbag1_record(std::string_view bytes) {
+  ByteCursor record(bytes);
+  Rosbag1Record found;
+  found.fields = Rosbag1Fields(record.text());
+  found.data = record.text();
+  found.size = record.ok() ? record.position() : 0;
+  return found;
+}
+
+/// Returns the bytes of the record at the front of `bytes`, which need not be all in view; 0 when the length
+/// of its data is not in view.
+std::uint64_t rosbag1_record_size(std::string_view bytes) {
+  ByteCursor record(bytes);
+  record.text();
+  const std::uint64_t data = record.take<std::uint32_t>();
+  return record.ok() ? record.position() + data : 0;
+}
+
+/// Returns the position of a record of at most `left` bytes whose header has the operation at `at`; npos for
+/// none.
+std::size_t rosbag1_record_before(std::string_view bytes, std::size_t at, std::uint64_t left) {
+  constexpr std::size_t kFarthest = 256;
+  for (std::size_t back = 2 * sizeof(std::uint32_t); back <= std::min(at, kFarthest); ++back) {
+    const std::string_view candidate = bytes.substr(at - back);
+    const auto header = ByteCursor(candidate).take<std::uint32_t>();
+    if (header < back || header > kFarthest) continue;
+    const Rosbag1Fields fields(candidate.substr(sizeof header, header));
+    const std::uint64_t size = rosbag1_record_size(candidate);
+    if (fields.has_op() && size > 0 && size <= left) return at - back;
+  }
+  return std::string_view::npos;
+}
 
 /// Largest header of a record in bytes; its fields are few and short.
 constexpr std::uint32_t kSourceLongestHeader = 1 << 20;
@@ -34,17 +123,12 @@ std::optional<BlockPacking> bag_packing(std::string_view name) {
 class Rosbag1Source : public MessageSource {
  public:
   explicit Rosbag1Source(std::unique_ptr<ByteSource> bytes)
-      : bytes_(std::move(bytes)), window_(*bytes_), topics_(bytes_->path()) {
+      : MessageSource(std::move(bytes)), window_(*bytes_), topics_(bytes_->path()) {
     start();
   }
 
-  const std::string& path() const override { return bytes_->path(); }
   const char* format() const override { return "rosbag1"; }
   const std::vector<Topic>& topics() const override { return topics_.all(); }
-  const Issues& issues() const override { return issues_; }
-  const std::string& sha256() const override { return bytes_->sha256(); }
-  double share_read() const override { return bytes_->share_read(); }
-  void spend(std::int64_t work_ns) override { bytes_->spend(work_ns); }
 
   bool next(Message& message) override {
     while (!at_end_) {
@@ -268,16 +352,14 @@ class Rosbag1Source : public MessageSource {
     issues_.merge(bytes_->issues());
   }
 
-  std::unique_ptr<ByteSource> bytes_;
   ByteWindow window_;
   TopicList topics_;
   std::size_t recordings_ = 0;                           ///< that have begun
   std::vector<std::map<std::uint32_t, int>> topics_of_;  ///< by recording, of each connection
-  Issues issues_;
-  std::uint64_t record_size_ = 0;  ///< of the present record; skipped at the next one
-  BlockBytes unpacked_;            ///< the open chunk, if it was compressed
-  std::string_view inside_;        ///< rest of the open chunk
-  bool chunk_doubtful_ = false;    ///< its bytes may be wrong
+  std::uint64_t record_size_ = 0;                        ///< of the present record; skipped at the next one
+  BlockBytes unpacked_;                                  ///< the open chunk, if it was compressed
+  std::string_view inside_;                              ///< rest of the open chunk
+  bool chunk_doubtful_ = false;                          ///< its bytes may be wrong
   LostMessages lost_;
   bool given_ = false, at_end_ = false;
 };

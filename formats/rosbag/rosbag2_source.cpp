@@ -14,7 +14,6 @@
 
 #include "formats/arrays/stored_content.hpp"
 #include "formats/bytes/work_budget.hpp"
-#include "formats/messages/joint_state_reader.hpp"
 #include "formats/messages/message_source.hpp"
 #include "formats/rosbag/rosbag_format.hpp"
 #include "lib/core/error.hpp"
@@ -89,24 +88,175 @@ class MessageTable {
 
   const std::vector<Topic>& topics() const { return topics_.all(); }
   /// Takes the next message; its bytes are valid until the next call. False after the last one.
-  bool next(Message& message, Issues& issues);
-  void rewind();
+  bool next(Message& message, Issues& issues) {
+    while (!at_end_) {
+      if (!at_row_) {
+        const int result = sqlite3_step(messages_);
+        const bool sound = result == SQLITE_ROW && sqlite3_column_int64(messages_, 0) > number_;
+        if (over_budget_) refuse_work();
+        at_end_ = result == SQLITE_DONE || (!sound && !pass_damage(issues));
+        if (at_end_) break;
+      }
+      at_row_ = false;
+      if (take(message, issues)) return true;
+    }
+    return false;
+  }
+
+  void rewind() {
+    number_ = std::numeric_limits<std::int64_t>::min();
+    budget_.start();
+    over_budget_ = false;
+    find_last_number();
+    seek(number_);
+    at_row_ = at_end_ = false;
+    sqlite3_reset(messages_);
+  }
+
   /// Counts work on the messages, see WorkBudget.
   void spend(std::int64_t work_ns) { budget_.spend(work_ns, file_bytes_); }
   /// Share of the numbers of all messages, 0 to 1.
-  double share_read() const;
+  double share_read() const {
+    if (last_number_ <= 0 || number_ <= 0) return 0.0;
+    return std::min(1.0, static_cast<double>(number_) / static_cast<double>(last_number_));
+  }
 
  private:
-  void open(const std::string& path);
-  void bound_work();
-  void refuse_computed(const char* table);
-  [[noreturn]] void refuse_work() const;
-  void read_topics();
-  void find_last_number();
-  bool seek(std::int64_t number);
-  bool pass_damage(Issues& issues);
-  bool take(Message& message, Issues& issues);
-  [[noreturn]] void fail(const std::string& what) const;
+  void open(const std::string& path) {
+    if (sqlite3_open_v2(uri_of(path).c_str(), &db_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) !=
+        SQLITE_OK)
+      fail(fmt::format("cannot be opened as SQLite ({})", sqlite3_errmsg(db_)));
+    for (const int off :
+         {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW})
+      sqlite3_db_config(db_, off, 0, nullptr);
+    sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kLongestMessage);
+    // Nothing is written; the setting lets SQLite read a file that is shorter than its head states.
+    sqlite3_db_config(db_, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+  }
+
+  /// Stops SQLite when it takes far more steps than a file of this size needs.
+  void bound_work() {
+    sqlite3_exec(db_, fmt::format("PRAGMA cache_size = -{}; PRAGMA temp_store = FILE", kMostCacheKib).c_str(),
+                 nullptr, nullptr, nullptr);
+    sqlite3_progress_handler(
+        db_, kCountedSteps,
+        [](void* self) {
+          auto& table = *static_cast<MessageTable*>(self);
+          try {
+            table.budget_.spend(kCountedSteps * kStep_ns, table.file_bytes_);
+          } catch (const Error&) {
+            table.over_budget_ = true;
+          }
+          return table.over_budget_ ? 1 : 0;
+        },
+        this);
+  }
+
+  /// Rejects views, virtual tables and computed columns, as they could cause any amount of work from a small
+  /// file.
+  void refuse_computed(const char* table) {
+    const Statement kind = prepared(db_, "SELECT type, sql FROM sqlite_master WHERE name = ?1");
+    if (!kind) return;
+    sqlite3_bind_text(kind.get(), 1, table, -1, SQLITE_STATIC);
+    if (sqlite3_step(kind.get()) == SQLITE_ROW &&
+        (text_of(kind.get(), 0) != "table" || sqlite3_column_type(kind.get(), 1) != SQLITE_TEXT ||
+         text_of(kind.get(), 1).find("VIRTUAL") != std::string::npos))
+      fail(fmt::format(
+          "is not a rosbag2 recording: \"{}\" is not a plain table but a computed one, which is not "
+          "evaluated. Export it as CSV",
+          table));
+    const Statement columns = prepared(db_, "SELECT hidden FROM pragma_table_xinfo(?1)");
+    if (!columns) return;
+    sqlite3_bind_text(columns.get(), 1, table, -1, SQLITE_STATIC);
+    while (sqlite3_step(columns.get()) == SQLITE_ROW)
+      if (sqlite3_column_int(columns.get(), 0) != 0)
+        fail(fmt::format(
+            "is not a rosbag2 recording: the table \"{}\" has a computed column, which is not evaluated. "
+            "Export it as CSV",
+            table));
+  }
+
+  [[noreturn]] void refuse_work() const {
+    fail(
+        "makes SQLite do far more work than a recording of its size needs, so reading stopped; a rosbag2 "
+        "recording has plain tables of topics and messages. Export it as CSV");
+  }
+
+  void read_topics() {
+    const Statement topics =
+        prepared(db_, "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
+    if (!topics || !prepared(db_, kFromNumber))
+      fail(fmt::format(
+          "is an SQLite file, but not a readable rosbag2 recording ({}); a recording has the tables topics "
+          "and messages. Export it as CSV",
+          sqlite3_errmsg(db_)));
+    while (sqlite3_step(topics.get()) == SQLITE_ROW) {
+      spend(kMessageWork_ns);
+      topic_of_id_.emplace(
+          sqlite3_column_int64(topics.get(), 0),
+          topics_.add({text_of(topics.get(), 1), text_of(topics.get(), 2), text_of(topics.get(), 3)}));
+    }
+    if (over_budget_) refuse_work();
+  }
+
+  void find_last_number() {
+    const Statement last = prepared(db_, "SELECT max(id) FROM messages");
+    last_number_ = last && sqlite3_step(last.get()) == SQLITE_ROW ? sqlite3_column_int64(last.get(), 0) : 0;
+    if (over_budget_) refuse_work();
+  }
+
+  /// Moves to the first message from `number` on; false when none can be read.
+  bool seek(std::int64_t number) {
+    sqlite3_finalize(messages_);
+    messages_ = nullptr;
+    sqlite3_prepare_v2(db_, kFromNumber, -1, &messages_, nullptr);
+    sqlite3_bind_int64(messages_, 1, number);
+    return at_row_ = sqlite3_step(messages_) == SQLITE_ROW && sqlite3_column_int64(messages_, 0) >= number;
+  }
+
+  /// Skips messages that cannot be read, with growing steps, then bisects to the first one that can be read.
+  bool pass_damage(Issues& issues) {
+    constexpr std::int64_t kFarthest = std::int64_t{1} << 24;
+    const std::int64_t first = std::max<std::int64_t>(number_, 0) + 1;
+    std::int64_t step = 1;
+    while (step < kFarthest && !seek(first + step)) step *= 2;
+    const bool found = at_row_;
+    if (over_budget_) refuse_work();
+    if (found) {
+      std::int64_t dark = first + step / 2, light = first + step;  // seek() fails at dark, not at light
+      while (light - dark > 1) {
+        const std::int64_t middle = dark + (light - dark) / 2;
+        (seek(middle) ? light : dark) = middle;
+      }
+      seek(light);
+    }
+    const std::int64_t next = found ? sqlite3_column_int64(messages_, 0) : last_number_ + 1;
+    const std::string lost = next > first ? fmt::format("messages {} to {}", first, next - 1)
+                                          : fmt::format("the messages from number {} on", first);
+    issues.add(
+        {"pages_damaged", "", Severity::severe, lost + " are on damaged or missing pages and are lost"});
+    return found;
+  }
+
+  bool take(Message& message, Issues& issues) {
+    number_ = sqlite3_column_int64(messages_, 0);
+    const std::int64_t id = sqlite3_column_int64(messages_, 1);
+    const auto topic = topic_of_id_.find(id);
+    if (topic == topic_of_id_.end()) {
+      issues.add({"channel_unknown", "", Severity::warning,
+                  fmt::format("skipped message {}: the file declares no topic {}", number_, id)});
+      return false;
+    }
+    const auto* bytes = static_cast<const char*>(sqlite3_column_blob(messages_, 3));
+    spend(kMessageWork_ns + kMessageByte_ns * sqlite3_column_bytes(messages_, 3));
+    message = {topic->second,
+               sqlite3_column_int64(messages_, 2),
+               {bytes ? bytes : "", static_cast<std::size_t>(sqlite3_column_bytes(messages_, 3))},
+               bytes == nullptr};
+    return true;
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { throw Error(ErrorCode::input, path_, what); }
 
   std::string path_;
   sqlite3* db_ = nullptr;
@@ -142,171 +292,6 @@ MessageTable::~MessageTable() {
   sqlite3_close(db_);
 }
 
-void MessageTable::fail(const std::string& what) const { throw Error(ErrorCode::input, path_, what); }
-
-void MessageTable::open(const std::string& path) {
-  if (sqlite3_open_v2(uri_of(path).c_str(), &db_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) !=
-      SQLITE_OK)
-    fail(fmt::format("cannot be opened as SQLite ({})", sqlite3_errmsg(db_)));
-  for (const int off :
-       {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW})
-    sqlite3_db_config(db_, off, 0, nullptr);
-  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kLongestMessage);
-  // Nothing is written; the setting lets SQLite read a file that is shorter than its head states.
-  sqlite3_db_config(db_, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
-}
-
-/// Stops SQLite when it takes far more steps than a file of this size needs.
-void MessageTable::bound_work() {
-  sqlite3_exec(db_, fmt::format("PRAGMA cache_size = -{}; PRAGMA temp_store = FILE", kMostCacheKib).c_str(),
-               nullptr, nullptr, nullptr);
-  sqlite3_progress_handler(
-      db_, kCountedSteps,
-      [](void* self) {
-        auto& table = *static_cast<MessageTable*>(self);
-        try {
-          table.budget_.spend(kCountedSteps * kStep_ns, table.file_bytes_);
-        } catch (const Error&) {
-          table.over_budget_ = true;
-        }
-        return table.over_budget_ ? 1 : 0;
-      },
-      this);
-}
-
-void MessageTable::refuse_work() const {
-  fail(
-      "makes SQLite do far more work than a recording of its size needs, so reading stopped; a rosbag2 "
-      "recording has plain tables of topics and messages. Export it as CSV");
-}
-
-/// Rejects views, virtual tables and computed columns, as they could cause any amount of work from a small
-/// file.
-void MessageTable::refuse_computed(const char* table) {
-  const Statement kind = prepared(db_, "SELECT type, sql FROM sqlite_master WHERE name = ?1");
-  if (!kind) return;
-  sqlite3_bind_text(kind.get(), 1, table, -1, SQLITE_STATIC);
-  if (sqlite3_step(kind.get()) == SQLITE_ROW &&
-      (text_of(kind.get(), 0) != "table" || sqlite3_column_type(kind.get(), 1) != SQLITE_TEXT ||
-       text_of(kind.get(), 1).find("VIRTUAL") != std::string::npos))
-    fail(fmt::format(
-        "is not a rosbag2 recording: \"{}\" is not a plain table but a computed one, which is not "
-        "evaluated. Export it as CSV",
-        table));
-  const Statement columns = prepared(db_, "SELECT hidden FROM pragma_table_xinfo(?1)");
-  if (!columns) return;
-  sqlite3_bind_text(columns.get(), 1, table, -1, SQLITE_STATIC);
-  while (sqlite3_step(columns.get()) == SQLITE_ROW)
-    if (sqlite3_column_int(columns.get(), 0) != 0)
-      fail(fmt::format(
-          "is not a rosbag2 recording: the table \"{}\" has a computed column, which is not evaluated. "
-          "Export it as CSV",
-          table));
-}
-
-void MessageTable::read_topics() {
-  const Statement topics =
-      prepared(db_, "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
-  if (!topics || !prepared(db_, kFromNumber))
-    fail(fmt::format(
-        "is an SQLite file, but not a readable rosbag2 recording ({}); a recording has the tables topics "
-        "and messages. Export it as CSV",
-        sqlite3_errmsg(db_)));
-  while (sqlite3_step(topics.get()) == SQLITE_ROW) {
-    spend(kMessageWork_ns);
-    topic_of_id_.emplace(
-        sqlite3_column_int64(topics.get(), 0),
-        topics_.add({text_of(topics.get(), 1), text_of(topics.get(), 2), text_of(topics.get(), 3)}));
-  }
-  if (over_budget_) refuse_work();
-}
-
-void MessageTable::find_last_number() {
-  const Statement last = prepared(db_, "SELECT max(id) FROM messages");
-  last_number_ = last && sqlite3_step(last.get()) == SQLITE_ROW ? sqlite3_column_int64(last.get(), 0) : 0;
-  if (over_budget_) refuse_work();
-}
-
-void MessageTable::rewind() {
-  number_ = std::numeric_limits<std::int64_t>::min();
-  budget_.start();
-  over_budget_ = false;
-  find_last_number();
-  seek(number_);
-  at_row_ = at_end_ = false;
-  sqlite3_reset(messages_);
-}
-
-/// Moves to the first message from `number` on; false when none can be read.
-bool MessageTable::seek(std::int64_t number) {
-  sqlite3_finalize(messages_);
-  messages_ = nullptr;
-  sqlite3_prepare_v2(db_, kFromNumber, -1, &messages_, nullptr);
-  sqlite3_bind_int64(messages_, 1, number);
-  return at_row_ = sqlite3_step(messages_) == SQLITE_ROW && sqlite3_column_int64(messages_, 0) >= number;
-}
-
-/// Skips messages that cannot be read, with growing steps, then bisects to the first one that can be read.
-bool MessageTable::pass_damage(Issues& issues) {
-  constexpr std::int64_t kFarthest = std::int64_t{1} << 24;
-  const std::int64_t first = std::max<std::int64_t>(number_, 0) + 1;
-  std::int64_t step = 1;
-  while (step < kFarthest && !seek(first + step)) step *= 2;
-  const bool found = at_row_;
-  if (over_budget_) refuse_work();
-  if (found) {
-    std::int64_t dark = first + step / 2, light = first + step;  // seek() fails at dark, not at light
-    while (light - dark > 1) {
-      const std::int64_t middle = dark + (light - dark) / 2;
-      (seek(middle) ? light : dark) = middle;
-    }
-    seek(light);
-  }
-  const std::int64_t next = found ? sqlite3_column_int64(messages_, 0) : last_number_ + 1;
-  const std::string lost = next > first ? fmt::format("messages {} to {}", first, next - 1)
-                                        : fmt::format("the messages from number {} on", first);
-  issues.add({"pages_damaged", "", Severity::severe, lost + " are on damaged or missing pages and are lost"});
-  return found;
-}
-
-bool MessageTable::next(Message& message, Issues& issues) {
-  while (!at_end_) {
-    if (!at_row_) {
-      const int result = sqlite3_step(messages_);
-      const bool sound = result == SQLITE_ROW && sqlite3_column_int64(messages_, 0) > number_;
-      if (over_budget_) refuse_work();
-      at_end_ = result == SQLITE_DONE || (!sound && !pass_damage(issues));
-      if (at_end_) break;
-    }
-    at_row_ = false;
-    if (take(message, issues)) return true;
-  }
-  return false;
-}
-
-bool MessageTable::take(Message& message, Issues& issues) {
-  number_ = sqlite3_column_int64(messages_, 0);
-  const std::int64_t id = sqlite3_column_int64(messages_, 1);
-  const auto topic = topic_of_id_.find(id);
-  if (topic == topic_of_id_.end()) {
-    issues.add({"channel_unknown", "", Severity::warning,
-                fmt::format("skipped message {}: the file declares no topic {}", number_, id)});
-    return false;
-  }
-  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(messages_, 3));
-  spend(kMessageWork_ns + kMessageByte_ns * sqlite3_column_bytes(messages_, 3));
-  message = {topic->second,
-             sqlite3_column_int64(messages_, 2),
-             {bytes ? bytes : "", static_cast<std::size_t>(sqlite3_column_bytes(messages_, 3))},
-             bytes == nullptr};
-  return true;
-}
-
-double MessageTable::share_read() const {
-  if (last_number_ <= 0 || number_ <= 0) return 0.0;
-  return std::min(1.0, static_cast<double>(number_) / static_cast<double>(last_number_));
-}
-
 std::int64_t big_endian(std::string_view bytes) {
   std::int64_t number = 0;
   for (const char c : bytes) number = 256 * number + static_cast<unsigned char>(c);
@@ -325,13 +310,10 @@ std::int64_t sqlite_bytes(std::string_view head) {
 class Rosbag2Source : public MessageSource {
  public:
   explicit Rosbag2Source(std::unique_ptr<ByteSource> bytes)
-      : bytes_(std::move(bytes)), table_(bytes_->path()) {}
+      : MessageSource(std::move(bytes)), table_(bytes_->path()) {}
 
-  const std::string& path() const override { return bytes_->path(); }
   const char* format() const override { return "rosbag2"; }
   const std::vector<Topic>& topics() const override { return table_.topics(); }
-  const Issues& issues() const override { return issues_; }
-  const std::string& sha256() const override { return bytes_->sha256(); }
   double share_read() const override { return table_.share_read(); }
   void spend(std::int64_t work_ns) override { table_.spend(work_ns); }
 
@@ -360,9 +342,7 @@ class Rosbag2Source : public MessageSource {
              ", as if files were joined by cat; it is not read. Give the files separately, with --then"});
   }
 
-  std::unique_ptr<ByteSource> bytes_;
   MessageTable table_;
-  Issues issues_;
 };
 
 }  // namespace

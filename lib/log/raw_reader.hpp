@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "lib/log/log_source.hpp"
 
 namespace faultline {
+
+/// Stands for a number that was not recorded or cannot be computed.
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A column under its name in the file; unit empty if the file gives none.
 struct RawColumn {
@@ -37,12 +41,12 @@ class RawReader {
   /// Chooses the part of a recording of messages that is the log. To be called first: columns() may change.
   virtual void choose(const RecordingChoice&) {}
   /// Selects the columns to read; the vectors of the others may be empty. All are selected at first.
-  virtual void want(const std::vector<bool>& columns) = 0;
+  virtual void want(const std::vector<bool>& columns) { wanted_ = columns; }
   /// Reads at most `max_rows` rows into the block, reusing its storage; returns false after the last row.
   virtual bool next(RawBlock& block, int max_rows) = 0;
   virtual void rewind() = 0;
   /// `rows_read` counts the rows handed out and those in issues().rows_dropped().
-  virtual const LogIdentity& identity() const = 0;
+  const LogIdentity& identity() const { return identity_; }
   /// Issues name a channel by the column name in the file.
   virtual const Issues& issues() const = 0;
   /// Whether the columns are canonical channels in SI already, so that no column map applies.
@@ -51,6 +55,10 @@ class RawReader {
   virtual bool sparse() const { return false; }
   /// Returns the share of the file read so far, 0 to 1.
   virtual double share_read() const = 0;
+
+ protected:
+  LogIdentity identity_;
+  std::vector<bool> wanted_;
 };
 
 }  // namespace faultline

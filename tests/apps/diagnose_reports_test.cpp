@@ -2,7 +2,7 @@
 // The reports that `faultline diagnose` writes, as its user asks for them.
 #include <gtest/gtest.h>
 
-#include "formats/write_log.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/report/html/report_formats.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/write_log.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "tests/learn/small_robot.hpp"

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "formats/csv/number.hpp"
 #include "formats/csv/wide_rows.hpp"
 #include "lib/core/random.hpp"
 

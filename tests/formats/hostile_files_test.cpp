@@ -8,7 +8,7 @@
 
 #include <ctime>
 
-#include "formats/write_log.hpp"
+#include "formats/log_writer.hpp"
 #include "tests/formats/messages/made_recordings.hpp"
 
 namespace faultline {

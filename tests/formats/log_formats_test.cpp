@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <set>
 
+#include "formats/log_writer.hpp"
 #include "formats/open_log.hpp"
-#include "formats/write_log.hpp"
 #include "lib/core/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "formats/log_writer.hpp"
 #include "formats/open_log.hpp"
-#include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "tests/support/temporary_folder.hpp"

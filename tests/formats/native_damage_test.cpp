@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
+#include "formats/log_writer.hpp"
 #include "formats/native/native_layout.hpp"
 #include "formats/open_log.hpp"
-#include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "tests/formats/native_bytes.hpp"

@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "formats/log_writer.hpp"
 #include "formats/native/native_layout.hpp"
 #include "formats/open_log.hpp"
-#include "formats/write_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/hash.hpp"
 #include "tests/support/run_program.hpp"

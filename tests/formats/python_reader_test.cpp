@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "formats/write_log.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "tests/support/skip_unless_installed.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "formats/log_writer.hpp"
 #include "formats/mcap/mcap_file.hpp"
 #include "formats/messages/encode_joint_state.hpp"
-#include "formats/messages/own_topics.hpp"
+#include "formats/messages/message_source.hpp"
 #include "formats/open_log.hpp"
-#include "formats/write_log.hpp"
 #include "lib/core/random.hpp"
 
 using namespace faultline;

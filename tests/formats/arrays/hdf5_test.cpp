@@ -6,7 +6,7 @@
 #include <csignal>
 #include <functional>
 
-#include "formats/write_log.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "tests/formats/arrays/read_bytes.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "formats/write_log.hpp"
+#include "formats/log_writer.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "tests/formats/arrays/read_bytes.hpp"
 #include "tests/support/run_python.hpp"

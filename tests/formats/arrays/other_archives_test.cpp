@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "formats/bytes/byte_builder.hpp"
+#include "formats/bytes/little_endian.hpp"
 #include "tests/formats/arrays/read_bytes.hpp"
 
 namespace faultline {

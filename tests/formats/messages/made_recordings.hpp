@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/bytes/byte_builder.hpp"
+#include "formats/bytes/little_endian.hpp"
 #include "formats/mcap/mcap_record.hpp"
 #include "formats/messages/encode_joint_state.hpp"
 #include "formats/open_log.hpp"

@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <zlib.h>
+
 #include <bit>
 #include <concepts>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 namespace faultline {
+
+/// Returns the CRC-32 of zlib over bytes that follow others whose checksum is `before`.
+inline std::uint32_t crc32_of(std::string_view bytes, std::uint32_t before = 0) {
+  if (bytes.empty()) return before;
+  return static_cast<std::uint32_t>(
+      ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
 
 /// Takes little-endian values from the front of bytes. Reading past their end gives zeros and empty text, and
 /// sets ok() to false.
@@ -46,6 +56,32 @@ class ByteCursor {
   std::string_view bytes_;
   std::size_t at_ = 0;
   bool ok_ = true;
+};
+
+/// Appends little-endian values to bytes.
+class ByteBuilder {
+ public:
+  template <std::unsigned_integral T>
+  ByteBuilder& put(T value) {
+    static_assert(std::endian::native == std::endian::little);
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    bytes_.append(raw, sizeof raw);
+    return *this;
+  }
+  ByteBuilder& put_bytes(std::string_view bytes) {
+    bytes_.append(bytes);
+    return *this;
+  }
+  /// Appends the text after its length in 32 bits.
+  ByteBuilder& put_text(std::string_view text) {
+    return put(static_cast<std::uint32_t>(text.size())).put_bytes(text);
+  }
+  const std::string& bytes() const { return bytes_; }
+  void clear() { bytes_.clear(); }
+
+ private:
+  std::string bytes_;
 };
 
 }  // namespace faultline

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "formats/write_log.hpp"
+#include "formats/log_writer.hpp"
 
 #include <filesystem>
 
 #include "formats/log_formats.hpp"
 #include "lib/core/error.hpp"
+#include "lib/log/log_channels.hpp"
 
 namespace faultline {
 namespace {
@@ -17,6 +18,17 @@ std::vector<std::string> choices(const std::vector<LogFormat>& formats) {
 }
 
 }  // namespace
+
+std::vector<WrittenChannel> channels_of(const Log& log) {
+  std::vector<WrittenChannel> channels{{"t", "", &log.time}};
+  for_each_joint_channel(log, [&](const std::vector<double>& values, Channel channel) {
+    channels.push_back({to_string(channel), "", &values});
+  });
+  for (const ExtraChannel& extra : log.extra)
+    channels.push_back(
+        {(canonical_channel(extra.name) ? "other_" : "") + extra.name, extra.unit, &extra.values});
+  return channels;
+}
 
 std::unique_ptr<LogWriter> create_log(const std::string& path) {
   const std::vector<LogFormat> formats = written_formats();
