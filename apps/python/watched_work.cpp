@@ -6,6 +6,8 @@
 #include <exception>
 #include <thread>
 
+#include "lib/log/transformed/changed_source.hpp"
+
 namespace faultline {
 namespace {
 
@@ -20,25 +22,20 @@ void serve(const py::object& progress, ProgressRelay& watch) {
   if (told && !progress.is_none()) progress(told->first, told->second);
 }
 
-class InterruptibleSource : public LogSource {
+class InterruptibleSource : public ChangedSource {
  public:
   InterruptibleSource(std::unique_ptr<LogSource> log, ProgressRelay& watch, bool reports_progress)
-      : log_(std::move(log)), watch_(watch), reports_progress_(reports_progress) {}
+      : ChangedSource(std::move(log)), watch_(watch), reports_progress_(reports_progress) {}
 
   bool next(Log& segment) override {
     watch_.check();
-    const bool more = log_->next(segment);
-    const double share = log_->share_read();
-    if (reports_progress_ && std::isfinite(share)) watch_.tell("reading " + log_->identity().path, share);
+    const bool more = source_.next(segment);
+    const double share = source_.share_read();
+    if (reports_progress_ && std::isfinite(share)) watch_.tell("reading " + source_.identity().path, share);
     return more;
   }
-  void rewind() override { log_->rewind(); }
-  const LogIdentity& identity() const override { return log_->identity(); }
-  const Issues& issues() const override { return log_->issues(); }
-  double share_read() const override { return log_->share_read(); }
 
  private:
-  std::unique_ptr<LogSource> log_;
   ProgressRelay& watch_;
   bool reports_progress_;
 };

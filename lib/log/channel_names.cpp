@@ -9,27 +9,23 @@
 namespace faultline {
 namespace {
 
-const char* prefix_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::time:
-      return "t";
-    case Quantity::q:
-      return "q";
-    case Quantity::dq:
-      return "dq";
-    case Quantity::tau:
-      return "tau";
-    case Quantity::q_ref:
-      return "q_ref";
-    case Quantity::dq_ref:
-      return "dq_ref";
-    case Quantity::tau_ref:
-      return "tau_ref";
-    case Quantity::tau_meas:
-      return "tau_meas";
-  }
-  return "";
-}
+/// A quantity as the prefix of a channel's name, and in words.
+struct QuantityWords {
+  const char *prefix, *meaning;
+};
+
+/// In the order of Quantity.
+constexpr std::array<QuantityWords, 8> kQuantityWords{{{"t", "time"},
+                                                       {"q", "position"},
+                                                       {"dq", "velocity"},
+                                                       {"tau", "torque"},
+                                                       {"q_ref", "commanded position"},
+                                                       {"dq_ref", "commanded velocity"},
+                                                       {"tau_ref", "commanded torque"},
+                                                       {"tau_meas", "measured torque"}}};
+static_assert(kQuantityWords.size() == static_cast<std::size_t>(Quantity::tau_meas) + 1);
+
+const char* prefix_of(Quantity quantity) { return kQuantityWords[static_cast<std::size_t>(quantity)].prefix; }
 
 enum class Kind { other, upper, lower, digit };
 
@@ -156,25 +152,7 @@ std::optional<Channel> canonical_channel(const std::string& name) {
 }
 
 const char* meaning_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::time:
-      return "time";
-    case Quantity::q:
-      return "position";
-    case Quantity::dq:
-      return "velocity";
-    case Quantity::tau:
-      return "torque";
-    case Quantity::q_ref:
-      return "commanded position";
-    case Quantity::dq_ref:
-      return "commanded velocity";
-    case Quantity::tau_ref:
-      return "commanded torque";
-    case Quantity::tau_meas:
-      return "measured torque";
-  }
-  return "";
+  return kQuantityWords[static_cast<std::size_t>(quantity)].meaning;
 }
 
 ParsedName parse_name(const std::string& name) {

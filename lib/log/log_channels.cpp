@@ -1,34 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "lib/log/log_channels.hpp"
 
+#include <array>
+
 namespace faultline {
 namespace {
 
-template <typename AnyLog>
-auto& signals_in(AnyLog& log, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::dq:
-      return log.dq;
-    case Quantity::tau:
-      return log.tau;
-    case Quantity::q_ref:
-      return log.q_ref;
-    case Quantity::dq_ref:
-      return log.dq_ref;
-    case Quantity::tau_ref:
-      return log.tau_ref;
-    case Quantity::tau_meas:
-      return log.tau_meas;
-    case Quantity::time:  // belongs to no joint
-    case Quantity::q:
-      break;
-  }
-  return log.q;
-}
+/// In the order of Quantity; the time belongs to no joint.
+constexpr std::array kSignals{&Log::q,     &Log::q,      &Log::dq,      &Log::tau,
+                              &Log::q_ref, &Log::dq_ref, &Log::tau_ref, &Log::tau_meas};
+static_assert(kSignals.size() == static_cast<std::size_t>(Quantity::tau_meas) + 1);
 
 }  // namespace
 
-JointSignals& signals_of(Log& log, Quantity quantity) { return signals_in(log, quantity); }
-const JointSignals& signals_of(const Log& log, Quantity quantity) { return signals_in(log, quantity); }
+JointSignals& signals_of(Log& log, Quantity quantity) {
+  return log.*kSignals[static_cast<std::size_t>(quantity)];
+}
+const JointSignals& signals_of(const Log& log, Quantity quantity) {
+  return log.*kSignals[static_cast<std::size_t>(quantity)];
+}
 
 }  // namespace faultline

@@ -59,7 +59,7 @@ LogQuality quality_of(const QualityState& state, const QualityOptions& options) 
   LogQuality quality;
   quality.time = without_run_breaks(state.time.result(), options.runs);
   quality.channels = state.channels;
-  judge_time(quality.time, options, quality.issues);
+  judge_time(quality.time, quality.issues);
   for (const ChannelSummary& channel : state.channels)
     judge_channel(channel, quality.time, options, quality.issues);
   for (std::size_t j = 0; j < state.velocity.size(); ++j) {

@@ -36,16 +36,11 @@ struct ChannelSummary {
 };
 
 struct QualityOptions {
-  TimeAxisOptions time{};
   /// A position that spans more, or lies beyond 5 times this, is hardly in rad; the limit leaves room for a
   /// joint that turns a few times after a fault has released it.
   double position_span = 20.0;
-  double slide_span = 10.0;       ///< the same for m
-  double fastest = 50.0;          ///< a velocity beyond it is hardly in rad/s or m/s
-  double longest_period_s = 0.9;  ///< a longer sample period is hardly in seconds
-  std::vector<bool> slides{};     ///< whether each joint slides (its unit is m); empty if unknown
-  std::vector<LogRun> runs{};     ///< runs of the log's clock: the step between two of them is no gap
-  double saturated_share = 0.01;  ///< least share of torque values at the largest or smallest; at least 20
+  std::vector<bool> slides{};  ///< whether each joint slides (its unit is m); empty if unknown
+  std::vector<LogRun> runs{};  ///< runs of the log's clock: the step between two of them is no gap
 };
 
 /// Result of the quality pass over all rows; complete after the last segment.

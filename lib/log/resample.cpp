@@ -28,10 +28,7 @@ double between(const std::vector<double>& values, int left, double share) {
 }  // namespace
 
 ResampledSource::ResampledSource(LogSource& source, const ResampleOptions& options)
-    : source_(source), options_(checked(options)) {}
-
-ResampledSource::ResampledSource(std::unique_ptr<LogSource> source, const ResampleOptions& options)
-    : owned_(std::move(source)), source_(*owned_), options_(checked(options)) {}
+    : ChangedSource(source), options_(checked(options)) {}
 
 bool ResampledSource::next(Log& segment) {
   while (!at_end_) {

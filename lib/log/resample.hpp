@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "lib/log/log_source.hpp"
+#include "lib/log/transformed/changed_source.hpp"
 
 namespace faultline {
 
@@ -22,19 +22,13 @@ struct ResampleOptions {
 /// period, which keeps the impulse from row to row, so that no short torque is lost or counted twice. A value
 /// is missing if one of its inputs is. No rows are made inside gaps or beyond the last sample. `rows_read`
 /// and the issues are those of the recorded log.
-class ResampledSource : public LogSource {
+class ResampledSource : public ChangedSource {
  public:
-  /// `source` is at its first row and has no other reader; it outlives this. Throws Error(usage) unless the
-  /// period is positive.
+  /// Throws Error(usage) unless the period is positive.
   ResampledSource(LogSource& source, const ResampleOptions& options);
-  /// The same, owning the source.
-  ResampledSource(std::unique_ptr<LogSource> source, const ResampleOptions& options);
 
   bool next(Log& segment) override;
   void rewind() override;
-  const LogIdentity& identity() const override { return source_.identity(); }
-  const Issues& issues() const override { return source_.issues(); }
-  double share_read() const override { return source_.share_read(); }
 
  private:
   /// A new row: `share` of the way from recorded row `left` to the next one.
@@ -54,8 +48,6 @@ class ResampledSource : public LogSource {
   double before() const { return options_.torque_phi * options_.period_s; }
   bool is_gap(double span) const;
 
-  std::unique_ptr<LogSource> owned_;
-  LogSource& source_;
   ResampleOptions options_;
   Log incoming_;
   Log recorded_;              ///< rows that new ones may still need

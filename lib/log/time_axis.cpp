@@ -10,7 +10,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kRounding = 1e-6;  // relative to the length of a gap
+constexpr double kGapFactor = 3.0;    // a step longer than so many periods is a gap
+constexpr double kJitterShare = 0.2;  // a step that differs by more than this share of a period is uneven
+constexpr double kRounding = 1e-6;    // relative to the length of a gap
 
 }  // namespace
 
@@ -43,7 +45,7 @@ void TimeAxisPass::settle_period() {
 void TimeAxisPass::judge_step(double before, double now) {
   ++judged_;
   const double step = now - before;
-  if (step > options_.gap_factor * axis_.period_s) {
+  if (step > kGapFactor * axis_.period_s) {
     if (axis_.gaps++ == 0) axis_.first_gap_row = judged_, axis_.first_gap_s = before;
     if (axis_.listed_gaps.size() < kListedGaps) axis_.listed_gaps.push_back({judged_, before, step});
     axis_.longest_gap_s = std::max(axis_.longest_gap_s, step);
@@ -51,7 +53,7 @@ void TimeAxisPass::judge_step(double before, double now) {
     return;
   }
   const double off = step - axis_.period_s;
-  axis_.uneven_steps += std::abs(off) > options_.jitter_share * axis_.period_s;
+  axis_.uneven_steps += std::abs(off) > kJitterShare * axis_.period_s;
   axis_.largest_jitter_s = std::max(axis_.largest_jitter_s, std::abs(off));
   squares_ += off * off;
 }

@@ -27,26 +27,20 @@ struct TimeAxis {
   double start_s = std::numeric_limits<double>::quiet_NaN();
   double end_s = std::numeric_limits<double>::quiet_NaN();
   std::int64_t rows = 0;
-  std::int64_t gaps = 0;           ///< steps longer than gap_factor periods
+  std::int64_t gaps = 0;           ///< steps longer than three periods
   std::int64_t first_gap_row = 0;  ///< row before the first gap, from 1
   double first_gap_s = 0.0;        ///< time before the first gap
   double longest_gap_s = 0.0;
   double in_gaps_s = 0.0;              ///< time inside all gaps
-  std::int64_t uneven_steps = 0;       ///< other steps that differ by more than jitter_share of a period
+  std::int64_t uneven_steps = 0;       ///< other steps that differ by more than a fifth of a period
   double jitter_s = 0.0;               ///< rms deviation of steps from the period, without gaps
   double largest_jitter_s = 0.0;       ///< largest deviation, without gaps
   std::vector<TimeGap> listed_gaps{};  ///< the first kListedGaps
 };
 
-struct TimeAxisOptions {
-  double gap_factor = 3.0;    ///< a step longer than so many periods is a gap
-  double jitter_share = 0.2;  ///< a step that differs by more than this share of a period is uneven
-};
-
 /// Follows the times of a log segment by segment; the result does not depend on the segments.
 class TimeAxisPass {
  public:
-  explicit TimeAxisPass(const TimeAxisOptions& options = {}) : options_(options) {}
   void add(const std::vector<double>& time);
   /// Returns the result of the times so far.
   TimeAxis result() const;
@@ -55,7 +49,6 @@ class TimeAxisPass {
   void settle_period();
   void judge_step(double before, double now);
 
-  TimeAxisOptions options_;
   TimeAxis axis_;
   std::vector<double> head_;  ///< first times, until there are enough to estimate the period
   std::int64_t judged_ = 0;   ///< rows before the step to be judged next

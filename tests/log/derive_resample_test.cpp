@@ -67,7 +67,7 @@ TEST(Derive, TwoRowsGiveNoVelocity) {
 }
 
 Log read_resampled(std::unique_ptr<LogSource> source, const ResampleOptions& options) {
-  ResampledSource made(std::move(source), options);
+  ResampledSource made(*source, options);
   return read_all(made);
 }
 
@@ -150,7 +150,8 @@ TEST(Resample, BordersOfSegmentsChangeNoTorque) {
 }
 
 TEST(Resample, BeginsAgainAfterRewind) {
-  ResampledSource source(source_of(pulses(), 64), {.period_s = 0.0025});
+  const std::unique_ptr<LogSource> recorded = source_of(pulses(), 64);
+  ResampledSource source(*recorded, {.period_s = 0.0025});
   const Log once = read_all(source);
   source.rewind();
   EXPECT_EQ(read_all(source).tau, once.tau);

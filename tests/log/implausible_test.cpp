@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/rows/implausible.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "lib/log/rows/row_order.hpp"
 
 namespace faultline {
 namespace {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
@@ -12,51 +13,15 @@ namespace faultline {
 namespace {
 
 const char* units_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::time:
-      return "s";
-    case Quantity::q:
-    case Quantity::q_ref:
-      return "rad or m";
-    case Quantity::dq:
-    case Quantity::dq_ref:
-      return "rad/s or m/s";
-    case Quantity::tau:
-    case Quantity::tau_ref:
-    case Quantity::tau_meas:
-      return "N m or N";
-  }
-  return "";
+  if (is_torque(quantity)) return "N m or N";
+  if (quantity == Quantity::time) return "s";
+  return basic_quantity(quantity) == Quantity::q ? "rad or m" : "rad/s or m/s";
 }
 
-/// Returns the quantity that a scale multiplies: one SI unit, since the factor of the unit comes first.
-const char* one_of(Dimension dimension) {
-  switch (dimension) {
-    case Dimension::none:
-      return "1";
-    case Dimension::time:
-      return "1 s";
-    case Dimension::angle:
-      return "1 rad";
-    case Dimension::length:
-      return "1 m";
-    case Dimension::angular_speed:
-      return "1 rad/s";
-    case Dimension::speed:
-      return "1 m/s";
-    case Dimension::torque:
-      return "1 N m";
-    case Dimension::force:
-      return "1 N";
-    case Dimension::current:
-      return "1 A";
-    case Dimension::voltage:
-      return "1 V";
-    case Dimension::share:
-      return "100 %";
-  }
-  return "";
-}
+/// The quantity that a scale multiplies, by Dimension: one SI unit, since the factor of the unit comes first.
+constexpr std::array kOneOf{"1",     "1 s", "1 rad", "1 m", "1 rad/s", "1 m/s",
+                            "1 N m", "1 N", "1 A",   "1 V", "100 %"};
+static_assert(kOneOf.size() == static_cast<std::size_t>(Dimension::share) + 1);
 
 }  // namespace
 
@@ -64,7 +29,7 @@ bool measures(Dimension dimension, Quantity quantity) {
   if (dimension == Dimension::none) return true;
   if (is_torque(quantity)) return dimension == Dimension::torque || dimension == Dimension::force;
   if (quantity == Quantity::time) return dimension == Dimension::time;
-  if (quantity == Quantity::q || quantity == Quantity::q_ref)
+  if (basic_quantity(quantity) == Quantity::q)
     return dimension == Dimension::angle || dimension == Dimension::length;
   return dimension == Dimension::angular_speed || dimension == Dimension::speed;
 }
@@ -91,7 +56,8 @@ void refuse_misfit(const RawColumn& column, const ColumnSpec& spec, Channel chan
       fmt::format("column \"{0}\" is in {1}, but {2} is a {3} in {4}: state in the robot file how much {5} "
                   "is, [log.columns] {2} = {{name = \"{0}\", scale = ...}}, or state the true unit",
                   shortened(column.name, kLongestName), shortened(unit, kLongestName), to_string(channel),
-                  meaning_of(channel.quantity), units_of(channel.quantity), one_of(known->dimension)));
+                  meaning_of(channel.quantity), units_of(channel.quantity),
+                  kOneOf[static_cast<std::size_t>(known->dimension)]));
 }
 
 std::vector<ColumnFamily> take_mismatched(std::vector<ColumnFamily>& families,

@@ -12,6 +12,13 @@
 /// Columns in a known unit of the wrong dimension, such as a current in the place of a torque.
 namespace faultline {
 
+/// Returns the quantity of the same kind that every log may have: q for q_ref, tau for tau_ref and tau_meas.
+constexpr Quantity basic_quantity(Quantity quantity) {
+  if (quantity == Quantity::q_ref) return Quantity::q;
+  if (quantity == Quantity::dq_ref) return Quantity::dq;
+  return quantity == Quantity::tau_ref || quantity == Quantity::tau_meas ? Quantity::tau : quantity;
+}
+
 /// Whether the quantity can have that dimension; it can if there is no unit.
 bool measures(Dimension dimension, Quantity quantity);
 

@@ -13,9 +13,13 @@ namespace {
 
 /// Fewer values than this are not judged constant or saturated.
 constexpr std::int64_t kFewestValues = 20;
-constexpr double kFarAway = 5.0;       // times the largest span: no joint is that far from zero
-constexpr double kOneWay = 1.2;        // path to span of a joint that turns one way, with some noise
-constexpr double kFastTurning = 20.0;  // rad/s on average; joints of arms turn slower
+constexpr double kSlideSpan = 10.0;       // m; a position that spans more is hardly in m
+constexpr double kFastestMotion = 50.0;   // a velocity beyond it is hardly in rad/s
+constexpr double kLongestPeriod_s = 0.9;  // a longer sample period is hardly in seconds
+constexpr double kSaturatedShare = 0.01;  // least share of torque values at the largest or smallest
+constexpr double kFarAway = 5.0;          // times the largest span: no joint is that far from zero
+constexpr double kOneWay = 1.2;           // path to span of a joint that turns one way, with some noise
+constexpr double kFastTurning = 20.0;     // rad/s on average; joints of arms turn slower
 
 bool starts_with(const std::string& name, const char* prefix) { return name.rfind(prefix, 0) == 0; }
 
@@ -48,11 +52,10 @@ void judge_constant(const ChannelSummary& channel, Issues& issues) {
                           channel.min)});
 }
 
-void judge_saturated(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
+void judge_saturated(const ChannelSummary& channel, Issues& issues) {
   if (!channel.canonical || !starts_with(channel.name, "tau") || channel.constant()) return;
   for (const auto& [limit, times] : {std::pair{channel.min, channel.at_min}, {channel.max, channel.at_max}}) {
-    if (limit == 0.0 || times < kFewestValues ||
-        share(times, channel.values) < 100.0 * options.saturated_share)
+    if (limit == 0.0 || times < kFewestValues || share(times, channel.values) < 100.0 * kSaturatedShare)
       continue;
     issues.add({"saturated_channel", channel.name, Severity::warning,
                 fmt::format("is at its limit of {:.6g} in {:.2g} % of the rows", limit,
@@ -99,7 +102,7 @@ void judge_span(const ChannelSummary& channel, const TimeAxis& time, const Quali
                 Issues& issues) {
   if (!channel.canonical || !starts_with(channel.name, "q") || channel.values == 0) return;
   const Axis axis = axis_of(channel, options);
-  const double most = axis == Axis::slides ? options.slide_span : options.position_span;
+  const double most = axis == Axis::slides ? kSlideSpan : options.position_span;
   const double largest = std::max(std::abs(channel.min), std::abs(channel.max));
   if (channel.max - channel.min < most && largest < kFarAway * most) return;
   const UnitWords words = position_words(axis);
@@ -119,7 +122,7 @@ void judge_span(const ChannelSummary& channel, const TimeAxis& time, const Quali
 
 void judge_speed(const ChannelSummary& channel, const QualityOptions& options, Issues& issues) {
   if (!channel.canonical || !starts_with(channel.name, "dq") || channel.values == 0) return;
-  if (std::max(std::abs(channel.min), std::abs(channel.max)) < options.fastest) return;
+  if (std::max(std::abs(channel.min), std::abs(channel.max)) < kFastestMotion) return;
   const UnitWords words = velocity_words(axis_of(channel, options));
   issues.add({"unit_implausible", channel.name, Severity::warning,
               fmt::format("is between {:.6g} and {:.6g}, which is hardly in {}; if it is {}, state the unit "
@@ -129,8 +132,8 @@ void judge_speed(const ChannelSummary& channel, const QualityOptions& options, I
 
 }  // namespace
 
-void judge_time(const TimeAxis& time, const QualityOptions& options, Issues& issues) {
-  if (time.period_s > options.longest_period_s)
+void judge_time(const TimeAxis& time, Issues& issues) {
+  if (time.period_s > kLongestPeriod_s)
     issues.add(
         {"unit_implausible", "t", Severity::severe,
          fmt::format(
@@ -158,7 +161,7 @@ void judge_channel(const ChannelSummary& channel, const TimeAxis& time, const Qu
                    Issues& issues) {
   judge_missing(channel, issues);
   judge_constant(channel, issues);
-  judge_saturated(channel, options, issues);
+  judge_saturated(channel, issues);
   judge_span(channel, time, options, issues);
   judge_speed(channel, options, issues);
 }

@@ -7,7 +7,7 @@ namespace faultline {
 
 /// Add to `issues` the faults of the time axis, of one channel, and of velocities compared with their
 /// positions.
-void judge_time(const TimeAxis& time, const QualityOptions& options, Issues& issues);
+void judge_time(const TimeAxis& time, Issues& issues);
 void judge_channel(const ChannelSummary& channel, const TimeAxis& time, const QualityOptions& options,
                    Issues& issues);
 void judge_velocities(const std::vector<VelocityAgreement>& agreements, const TimeAxis& time,

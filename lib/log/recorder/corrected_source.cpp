@@ -57,10 +57,10 @@ double WrappedAngle::unwrapped(double t, double q, double dq, double longest_s) 
 }
 
 CorrectedSource::CorrectedSource(LogSource& source, std::vector<bool> slides)
-    : source_(source), slides_(std::move(slides)) {}
+    : ChangedSource(source), slides_(std::move(slides)) {}
 
 CorrectedSource::CorrectedSource(std::unique_ptr<LogSource> source, std::vector<bool> slides)
-    : owned_(std::move(source)), source_(*owned_), slides_(std::move(slides)) {}
+    : ChangedSource(std::move(source)), slides_(std::move(slides)) {}
 
 void CorrectedSource::rewind() {
   source_.rewind();

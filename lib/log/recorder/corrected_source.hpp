@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "lib/log/log_source.hpp"
 #include "lib/log/recorder/measured_rows.hpp"
+#include "lib/log/transformed/changed_source.hpp"
 
 namespace faultline {
 
@@ -40,7 +40,7 @@ inline constexpr const char* kChangedColumns = "columns_changed";
 ///   stage draws conclusions across it (rows_cut_out, block_repeated);
 /// - if two joints continue as each other, columns_changed names the row.
 /// A jump, a standstill or zeros of a single joint have no such effect: its sensor may be faulty.
-class CorrectedSource : public LogSource {
+class CorrectedSource : public ChangedSource {
  public:
   /// `slides`: whether each joint slides and so has no turns; empty if unknown. `source` outlives this.
   explicit CorrectedSource(LogSource& source, std::vector<bool> slides = {});
@@ -48,9 +48,7 @@ class CorrectedSource : public LogSource {
 
   bool next(Log& segment) override;
   void rewind() override;
-  const LogIdentity& identity() const override { return source_.identity(); }
   const Issues& issues() const override;
-  double share_read() const override { return source_.share_read(); }
 
  private:
   void judge_rows();
@@ -64,8 +62,6 @@ class CorrectedSource : public LogSource {
   void hand_out(Log& segment);
   std::int64_t number_of(int row) const { return rows_.first_row + row + 1; }
 
-  std::unique_ptr<LogSource> owned_;
-  LogSource& source_;
   std::vector<bool> slides_;
 
   Log rows_;               ///< rows not handed out yet; first_row as in the source

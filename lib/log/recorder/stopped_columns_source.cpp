@@ -22,9 +22,11 @@ constexpr int kFewestJoints = 2;                     // the sensor of a single o
 constexpr std::int64_t kMostHeld = 4096;             // most rows that wait for a decision
 constexpr std::int64_t kFewestTorqueChanges = 20;    // torques that never change are not judged
 
-const JointSignals& group_of(const Log& rows, int group) {
-  if (group == static_cast<int>(ColumnGroup::positions)) return rows.q;
-  return group == static_cast<int>(ColumnGroup::velocities) ? rows.dq : rows.tau;
+/// Returns the columns of a group; `AnyLog` is Log or const Log.
+template <typename AnyLog>
+auto& group_of(AnyLog& rows, int group) {
+  constexpr std::array<JointSignals Log::*, kColumnGroups> kMembers{&Log::q, &Log::dq, &Log::tau};
+  return rows.*kMembers[static_cast<std::size_t>(group)];
 }
 
 void take_row(const JointSignals& signals, int at, std::vector<double>& values) {
@@ -66,11 +68,6 @@ GroupWords words_of(ColumnGroup group, bool is_zero) {
           is_zero
               ? "the torques of all joints are zero although the joints accelerate and decelerate"
               : "the torques of all joints repeat every digit although the joints accelerate and decelerate"};
-}
-
-JointSignals& signals_of_group(Log& rows, ColumnGroup group) {
-  if (group == ColumnGroup::positions) return rows.q;
-  return group == ColumnGroup::velocities ? rows.dq : rows.tau;
 }
 
 }  // namespace
@@ -143,7 +140,7 @@ const std::array<ColumnHold, kColumnGroups>& StoppedColumns::take(const Log& row
 }
 
 void StoppedColumnsSource::rewind() {
-  source_->rewind();
+  source_.rewind();
   columns_ = {};
   holds_ = {};
   rows_ = {};
@@ -154,7 +151,7 @@ void StoppedColumnsSource::rewind() {
 }
 
 const Issues& StoppedColumnsSource::issues() const {
-  issues_ = source_->issues();
+  issues_ = source_.issues();
   issues_.merge(found_);
   return issues_;
 }
@@ -162,7 +159,7 @@ const Issues& StoppedColumnsSource::issues() const {
 bool StoppedColumnsSource::next(Log& segment) {
   for (Log incoming; settled() == 0;) {
     if (at_end_) return false;
-    at_end_ = !source_->next(incoming);
+    at_end_ = !source_.next(incoming);
     if (at_end_) continue;
     if (rows_.rows() == 0)
       std::swap(rows_, incoming);
@@ -195,7 +192,7 @@ void StoppedColumnsSource::judge_rows() {
 
 /// Replaces the values of a hold by NaN; its first row was measured unless it is zero as well.
 void StoppedColumnsSource::empty_held(ColumnGroup group, const ColumnHold& hold, int up_to) {
-  JointSignals& signals = signals_of_group(rows_, group);
+  JointSignals& signals = group_of(rows_, static_cast<int>(group));
   const std::int64_t first = hold.first_row + (hold.is_zero ? 0 : 1) - handed_out_;
   const GroupWords words = words_of(group, hold.is_zero);
   for (int row = static_cast<int>(std::max<std::int64_t>(first, 0)); row <= up_to; ++row) {

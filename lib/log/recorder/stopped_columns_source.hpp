@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/log/log.hpp"
-#include "lib/log/log_source.hpp"
+#include "lib/log/transformed/changed_source.hpp"
 
 namespace faultline {
 
@@ -58,22 +58,19 @@ class StoppedColumns {
 /// A log without values that a recorder did not measure: positions, velocities or torques of all joints
 /// become NaN if they stopped while the others went on (positions_stopped, velocities_stopped,
 /// torques_stopped).
-class StoppedColumnsSource : public LogSource {
+class StoppedColumnsSource : public ChangedSource {
  public:
-  explicit StoppedColumnsSource(std::unique_ptr<LogSource> source) : source_(std::move(source)) {}
+  explicit StoppedColumnsSource(std::unique_ptr<LogSource> source) : ChangedSource(std::move(source)) {}
 
   bool next(Log& segment) override;
   void rewind() override;
-  const LogIdentity& identity() const override { return source_->identity(); }
   const Issues& issues() const override;
-  double share_read() const override { return source_->share_read(); }
 
  private:
   void judge_rows();
   void empty_held(ColumnGroup group, const ColumnHold& hold, int up_to);
   int settled() const;
 
-  std::unique_ptr<LogSource> source_;
   StoppedColumns columns_;
   std::array<ColumnHold, kColumnGroups> holds_;
   Log rows_;                     ///< rows not handed out yet; first_row as in the source

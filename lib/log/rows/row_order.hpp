@@ -13,6 +13,13 @@
 
 namespace faultline {
 
+/// Limit of magnitude that no joint signal or time in SI reaches; a number beyond it is damage.
+inline constexpr double kImplausible = 1e12;
+
+/// Replaces infinite or implausible values by NaN and adds an issue for each. Row i of the segment is data
+/// row first_row + i + 1 of the file.
+void blank_implausible(Log& segment, std::int64_t first_row, Issues& issues);
+
 /// A late row is put in its place if fewer than this number of rows with later times come before it in the
 /// file: recorders with several threads write rows up to a second late, at up to 1 kHz.
 inline constexpr int kOrderWindowRows = 1000;

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "lib/core/error.hpp"
+#include "lib/log/column_matching.hpp"
 #include "lib/log/columns/joint_count.hpp"
 #include "lib/log/log_channels.hpp"
+#include "lib/log/transformed/changed_source.hpp"
 
 namespace faultline {
 namespace {
@@ -40,27 +42,22 @@ void mix_all(Log& log, const Eigen::MatrixXd& motion, const Eigen::MatrixXd& tor
     mix(signals_of(log, quantity), is_torque(quantity) ? torque : motion, mixed);
 }
 
-class CoupledSource : public LogSource {
+class CoupledSource : public ChangedSource {
  public:
   CoupledSource(std::unique_ptr<LogSource> source, const Eigen::MatrixXd& coupling)
-      : source_(std::move(source)), motion_(coupling), torque_(inverse_of(coupling).transpose()) {}
+      : ChangedSource(std::move(source)), motion_(coupling), torque_(inverse_of(coupling).transpose()) {}
 
   bool next(Log& segment) override {
-    if (!source_->next(segment)) return false;
+    if (!source_.next(segment)) return false;
     if (segment.joints() != motion_.rows())
-      throw Error(ErrorCode::input, source_->identity().path,
-                  joint_count_sentence(source_->issues(), segment.joints(), "the coupling of the robot",
+      throw Error(ErrorCode::input, source_.identity().path,
+                  joint_count_sentence(source_.issues(), segment.joints(), "the coupling of the robot",
                                        static_cast<int>(motion_.rows())));
     mix_all(segment, motion_, torque_, mixed_);
     return true;
   }
-  void rewind() override { source_->rewind(); }
-  const LogIdentity& identity() const override { return source_->identity(); }
-  const Issues& issues() const override { return source_->issues(); }
-  double share_read() const override { return source_->share_read(); }
 
  private:
-  std::unique_ptr<LogSource> source_;
   Eigen::MatrixXd motion_, torque_;
   JointSignals mixed_;  ///< storage that next() reuses
 };

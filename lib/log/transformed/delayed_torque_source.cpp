@@ -8,7 +8,7 @@ namespace faultline {
 
 DelayedTorqueSource::DelayedTorqueSource(LogSource& source, std::vector<double> delay_s,
                                          std::vector<double> gain)
-    : source_(source), delay_s_(std::move(delay_s)), gain_(std::move(gain)) {
+    : ChangedSource(source), delay_s_(std::move(delay_s)), gain_(std::move(gain)) {
   for (const double delay : delay_s_) {
     ahead_s_ = std::max(ahead_s_, -delay);
     behind_s_ = std::max(behind_s_, delay);

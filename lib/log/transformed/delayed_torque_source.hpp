@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "lib/log/log_source.hpp"
+#include "lib/log/transformed/changed_source.hpp"
 
 namespace faultline {
 
@@ -12,26 +12,19 @@ namespace faultline {
 /// torque of joint j at time t is the logged one at t - delay_s[j], interpolated linearly between its samples
 /// and held constant before the first and after the last one. Torques are multiplied by `gain`, if given. All
 /// other channels pass unchanged.
-class DelayedTorqueSource : public LogSource {
+class DelayedTorqueSource : public ChangedSource {
  public:
-  /// `source` is at its first row and has no other reader; it outlives this.
   DelayedTorqueSource(LogSource& source, std::vector<double> delay_s, std::vector<double> gain = {});
-  /// The same, owning the source.
   DelayedTorqueSource(std::unique_ptr<LogSource> source, std::vector<double> delay_s,
                       std::vector<double> gain = {});
 
   bool next(Log& segment) override;
   void rewind() override;
-  const LogIdentity& identity() const override { return source_.identity(); }
-  const Issues& issues() const override { return source_.issues(); }
-  double share_read() const override { return source_.share_read(); }
 
  private:
   bool fill();
   double torque_at(int joint, double t);
 
-  std::unique_ptr<LogSource> owned_;
-  LogSource& source_;
   std::vector<double> delay_s_, gain_;  ///< by joint; further joints have no delay and gain 1
   double ahead_s_ = 0.0;                ///< s, how far the latest torque needed lies after its row
   double behind_s_ = 0.0;               ///< s, how far the earliest one lies before it

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "lib/log/log_source.hpp"
+#include "lib/log/transformed/changed_source.hpp"
 
 namespace faultline {
 
@@ -11,16 +11,12 @@ namespace faultline {
 /// clock, so that every stage treats a lost row like one recorded without values. Gaps of more than
 /// kMostEmptyRows rows, and those on a clock with jitter, stay gaps. The inserted rows are no rows of the
 /// log: identity() and issues() do not count them.
-class EmptyRowsSource : public LogSource {
+class EmptyRowsSource : public ChangedSource {
  public:
-  /// `source` is at its first row and has no other reader; it outlives this.
-  explicit EmptyRowsSource(LogSource& source) : source_(source) {}
+  explicit EmptyRowsSource(LogSource& source) : ChangedSource(source) {}
 
   bool next(Log& segment) override;
   void rewind() override;
-  const LogIdentity& identity() const override { return source_.identity(); }
-  const Issues& issues() const override { return source_.issues(); }
-  double share_read() const override { return source_.share_read(); }
   /// Returns the number of rows inserted so far.
   std::int64_t rows_put_in() const { return given_ - rows_; }
 
@@ -29,7 +25,6 @@ class EmptyRowsSource : public LogSource {
   int missing_before(double time);
   void follow_clock(double step);
 
-  LogSource& source_;
   Log head_;              ///< first rows, from which the period is estimated; handed out first
   bool started_ = false;  ///< whether head_ was read
   double period_s_ = 0.0, jitter_ = 0.0, last_s_ = 0.0;  ///< jitter: mean deviation of a step, in periods

@@ -7,7 +7,7 @@
 namespace faultline {
 
 SelectedRowsSource::SelectedRowsSource(LogSource& source, std::vector<RowRange> ranges)
-    : source_(source), ranges_(std::move(ranges)) {}
+    : ChangedSource(source), ranges_(std::move(ranges)) {}
 
 void SelectedRowsSource::rewind() {
   source_.rewind();
