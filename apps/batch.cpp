@@ -8,9 +8,8 @@
 #include <memory>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
 #include "apps/options.hpp"
-#include "apps/progress.hpp"
+#include "apps/terminal.hpp"
 #include "apps/work/batching.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/model/model_files.hpp"

@@ -4,7 +4,6 @@
 
 #include "apps/cases/case_actions.hpp"
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
 #include "apps/options.hpp"
 #include "lib/cases/case_file.hpp"
 

@@ -18,6 +18,9 @@ struct Program {
   std::function<int()> run;
 };
 
+/// Makes `work` what the program does if the command is named.
+void set_work(CLI::App& command, Program& program, std::function<int(ColorChoice)> work);
+
 // One function per subcommand, each in its own file: adds the subcommand, its options, help and example.
 void add_inspect(CLI::App& app, Program& program);
 void add_convert(CLI::App& app, Program& program);
@@ -33,5 +36,16 @@ void add_golden(CLI::App& app, Program& program);
 void add_reproduce(CLI::App& app, Program& program);
 void add_help(CLI::App& app, Program& program);
 void add_completion(CLI::App& app, Program& program);
+
+/// Exit statuses of the program; scripts rely on them.
+inline constexpr int kNothingFound = 0;   ///< done, nothing wrong found
+inline constexpr int kFindings = 1;       ///< done, with findings: a fault, a severe issue, a mismatch
+inline constexpr int kUsageError = 2;     ///< error in the command line or an option file
+inline constexpr int kFileError = 3;      ///< an input cannot be processed or a result cannot be written
+inline constexpr int kInternalError = 4;  ///< a defect of the program, or out of memory
+
+/// Runs `work` and returns its status; an exception is printed as one sentence on standard error and gives
+/// the status that belongs to it.
+int guarded(const std::function<int()>& work);
 
 }  // namespace faultline

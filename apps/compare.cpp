@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
 #include "apps/options.hpp"
 #include "apps/work/file_use.hpp"
 #include "apps/work/robot_log.hpp"

@@ -5,15 +5,14 @@
 #include <memory>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
-#include "apps/log_selection.hpp"
-#include "apps/progress.hpp"
+#include "apps/options.hpp"
+#include "apps/terminal.hpp"
 #include "apps/work/diagnosis_recording.hpp"
 #include "apps/work/file_use.hpp"
 #include "formats/log_formats.hpp"
+#include "formats/log_writer.hpp"
 #include "formats/open_log.hpp"
 #include "formats/provenance.hpp"
-#include "formats/log_writer.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/robot/robot_file.hpp"
@@ -108,9 +107,7 @@ void add_convert(CLI::App& app, Program& program) {
       "The converted log needs no column mapping. Rows without a usable time are left out and reported.\n"
       "Exit status 1: rows, values or signals were lost; the converted log records this, too.\n"
       "Example: faultline convert run.csv run.flog --robot robot.toml");
-  command->callback([arguments, &program] {
-    program.run = [arguments, &program] { return convert(*arguments, program.color); };
-  });
+  set_work(*command, program, [arguments](ColorChoice color) { return convert(*arguments, color); });
 }
 
 }  // namespace faultline

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
-#include "apps/log_selection.hpp"
 #include "apps/options.hpp"
 #include "apps/work/diagnosis_recording.hpp"
 #include "apps/work/file_use.hpp"
@@ -122,9 +120,7 @@ void add_diagnose(CLI::App& app, Program& program) {
       "Exit status 0: healthy, 1: a fault was found, or no verdict is possible (\"No verdict\", verdict "
       "inconclusive).\n"
       "Example: faultline diagnose run.csv --model robot.model --json report.json");
-  command->callback([arguments, &program] {
-    program.run = [arguments, &program] { return run_diagnose(*arguments, program.color); };
-  });
+  set_work(*command, program, [arguments](ColorChoice color) { return run_diagnose(*arguments, color); });
 }
 
 }  // namespace faultline

@@ -4,9 +4,7 @@
 #include <memory>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
-#include "apps/manual/all_commands.hpp"
-#include "apps/manual/completion.hpp"
+#include "apps/manual/command_description.hpp"
 #include "apps/manual/help_text.hpp"
 #include "apps/manual/unknown_word.hpp"
 #include "lib/core/atomic_file.hpp"

@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
 #include "apps/options.hpp"
-#include "apps/progress.hpp"
+#include "apps/terminal.hpp"
 #include "apps/work/file_use.hpp"
 #include "apps/work/robot_log.hpp"
 #include "lib/core/atomic_file.hpp"
@@ -136,9 +135,7 @@ void add_identify(CLI::App& app, Program& program) {
   command->footer(
       "Exit status 0: identified, 1: this robot does not explain the logs (unexplained).\n"
       "Example: faultline identify healthy1.csv healthy2.csv --robot robot.toml -o identified.toml");
-  command->callback([arguments, &program] {
-    program.run = [arguments, &program] { return run_identify(*arguments, program.color); };
-  });
+  set_work(*command, program, [arguments](ColorChoice color) { return run_identify(*arguments, color); });
 }
 
 }  // namespace faultline

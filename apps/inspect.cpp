@@ -3,13 +3,10 @@
 #include <memory>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
 #include "apps/inspection/inspection.hpp"
-#include "apps/inspection/inspection_page.hpp"
-#include "apps/log_selection.hpp"
 #include "apps/options.hpp"
-#include "apps/progress.hpp"
 #include "apps/suggestion/robot_guess.hpp"
+#include "apps/terminal.hpp"
 #include "apps/work/file_use.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
@@ -96,9 +93,7 @@ void add_inspect(CLI::App& app, Program& program) {
   command->footer(
       "Exit status 1 when something severe was found.\n"
       "Example: faultline inspect run.csv --robot robot.toml --json findings.json");
-  command->callback([arguments, &program] {
-    program.run = [arguments, &program] { return inspect(*arguments, program.color); };
-  });
+  set_work(*command, program, [arguments](ColorChoice color) { return inspect(*arguments, color); });
 }
 
 }  // namespace faultline

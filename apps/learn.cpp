@@ -8,10 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
 #include "apps/options.hpp"
-#include "apps/progress.hpp"
-#include "apps/work/carried_cases.hpp"
+#include "apps/terminal.hpp"
 #include "apps/work/file_use.hpp"
 #include "apps/work/learned_text.hpp"
 #include "apps/work/learning.hpp"

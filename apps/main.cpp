@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <exception>
+#include <new>
 #include <regex>
 
 #ifdef __GLIBC__
@@ -8,9 +10,9 @@
 #endif
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
 #include "apps/manual/help_text.hpp"
 #include "apps/manual/unknown_word.hpp"
+#include "apps/terminal.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/removed_on_signal.hpp"
 #include "lib/core/version.hpp"
@@ -112,7 +114,45 @@ int run(int argc, char** argv) {
   return program.run();
 }
 
+int status_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::usage:
+      return kUsageError;
+    case ErrorCode::input:
+    case ErrorCode::output:
+      return kFileError;
+    case ErrorCode::internal:
+      return kInternalError;
+  }
+  return kInternalError;
+}
+
+int fail(int status, const std::string& sentence) {
+  tell(sentence);
+  return status;
+}
+
 }  // namespace
+
+void set_work(CLI::App& command, Program& program, std::function<int(ColorChoice)> work) {
+  command.callback(
+      [&program, work = std::move(work)] { program.run = [&program, work] { return work(program.color); }; });
+}
+
+int guarded(const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    return fail(status_of(error.code()), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kInternalError,
+                "the machine has too little free memory for this; use a shorter log, or free some memory");
+  } catch (const std::exception& error) {
+    return fail(kInternalError,
+                std::string("internal error, please report it with the command line: ") + error.what());
+  }
+}
+
 }  // namespace faultline
 
 int main(int argc, char** argv) {

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/text.hpp"
 #include "lib/model/model_text.hpp"

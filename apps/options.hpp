@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/work/model_paths.hpp"
+#include "apps/work/file_use.hpp"
+#include "formats/open_log.hpp"
 #include "lib/diagnose/diagnose_options.hpp"
 
 namespace CLI {
@@ -48,5 +49,11 @@ CLI::Option* add_choice_option(CLI::App& command, const std::string& flag, Enum&
   return add_choice_option(
       command, flag, names, [&value, all](std::size_t i) { value = all[i]; }, help);
 }
+
+/// Adds --join, --join-by, --then and --run, which fill `parts` before the command runs.
+void add_log_selection(CLI::App& command, LogSelection& parts);
+
+/// Returns all files of the log except its first one.
+std::vector<std::string> files_of(const LogSelection& parts);
 
 }  // namespace faultline

@@ -6,10 +6,9 @@
 #include <string>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
 #include "apps/options.hpp"
-#include "apps/progress.hpp"
-#include "apps/work/reproduction.hpp"
+#include "apps/terminal.hpp"
+#include "apps/work/simulation.hpp"
 #include "lib/reproduce/page/figure_text.hpp"
 
 namespace faultline {

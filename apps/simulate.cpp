@@ -7,8 +7,7 @@
 #include <string>
 
 #include "apps/commands.hpp"
-#include "apps/exit_status.hpp"
-#include "apps/progress.hpp"
+#include "apps/terminal.hpp"
 #include "apps/work/simulation.hpp"
 
 namespace faultline {
@@ -55,9 +54,7 @@ void add_simulate(CLI::App& app, Program& program) {
   command->add_option("--seed", arguments->seed, "Seed, instead of the one in the spec")->type_name("N");
   command->add_flag("--json", arguments->json, "Print the simulated runs as JSON");
   command->footer("Example: faultline simulate sample_logs/bench/spec.toml -o /tmp/bench");
-  command->callback([arguments, &program] {
-    program.run = [arguments, &program] { return simulate_file(*arguments, program.color); };
-  });
+  set_work(*command, program, [arguments](ColorChoice color) { return simulate_file(*arguments, color); });
 }
 
 }  // namespace faultline

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdio>
 #include <string>
 #include <string_view>
+
+#include "lib/core/progress.hpp"
 
 namespace faultline {
 
@@ -12,7 +15,6 @@ enum class ColorChoice { automatic, always, never };
 /// True when output to `stream` is coloured: `automatic` means on a terminal unless NO_COLOR is set and not
 /// empty, or TERM is "dumb".
 bool use_color(ColorChoice choice, std::FILE* stream);
-bool is_terminal(std::FILE* stream);
 
 /// Writes a result to standard output at once after outgoing(), which keeps the codes of painted() only with
 /// `color`. Throws Error(output) when it cannot be written.
@@ -24,5 +26,26 @@ void tell(std::string_view sentence);
 /// Call it first: a closed pipe and a file size limit then cause write errors instead of signals, and closed
 /// standard streams cannot be confused with files opened later.
 void prepare_standard_streams();
+
+/// A progress bar on standard error while the object lives, if that is a terminal; else nothing. Give
+/// `callback()` to the long work. The bar appears after `delay_s`, so that short work shows none.
+class ProgressBar {
+ public:
+  explicit ProgressBar(ColorChoice color, double delay_s = 0.3);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// Valid while the bar lives; empty when there is no terminal.
+  Progress callback();
+
+ private:
+  void show(const std::string& what, double share);
+
+  bool on_terminal_;
+  bool color_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point next_;
+};
 
 }  // namespace faultline

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "apps/cases/case_actions.hpp"
-#include "apps/cases/case_date.hpp"
 #include "apps/work/file_use.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/case_origin.hpp"
@@ -96,9 +95,7 @@ Added add_to(CaseBase& base, const CasesArguments& arguments) {
         fmt::format("this event is already case {} (the same log, onset and fault)", there->id);
     if (found.changes.empty()) return {there->id, which + "; nothing was changed", false};
     base.replace(found.revised);
-    std::string list;
-    for (const std::string& what : found.changes) list += (list.empty() ? "" : ", ") + what;
-    return {found.revised.id, which + "; changed: " + list, true};
+    return {found.revised.id, fmt::format("{}; changed: {}", which, fmt::join(found.changes, ", ")), true};
   }
   const bool by_hand = c.origin == kByHandOrigin;
   return {base.retain(c),

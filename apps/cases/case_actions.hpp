@@ -6,11 +6,15 @@
 #include <optional>
 #include <string>
 
-#include "apps/work/model_paths.hpp"
+#include "apps/work/file_use.hpp"
 #include "lib/cases/case_base.hpp"
 
 /// The actions of faultline cases without their output.
 namespace faultline {
+
+/// Returns the date or, if it is empty, today's: from SOURCE_DATE_EPOCH (UTC) if that is set, else from the
+/// clock of this machine. Throws Error(usage) for a date not of the form YYYY-MM-DD or an invalid epoch.
+std::string date_or_today(const std::string& date);
 
 /// Arguments of the actions of faultline cases.
 struct CasesArguments : ModelPaths {

@@ -100,9 +100,9 @@ PossibleAnalysis identify(const Facts& facts) {
 }
 
 PossibleAnalysis learn(const Facts& facts, const PossibleAnalysis& identified) {
-  PossibleAnalysis analysis{"learn", "learn a model of the healthy robot", {}, {}, {}, {}};
-  analysis = {analysis.name,       analysis.what,  identified.fit,
-              identified.channels, identified.why, identified.help};
+  PossibleAnalysis analysis = identified;
+  analysis.name = "learn";
+  analysis.what = "learn a model of the healthy robot";
   if (identified.fit != AnalysisFit::impossible || facts.references.empty()) return analysis;
   analysis.fit = AnalysisFit::limited;
   analysis.channels = both(facts.motions, facts.references);

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/inspection/row_clock.hpp"
 #include "formats/open_log.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
+#include "lib/log/columns/unit_fit.hpp"
 #include "lib/log/mapped_source.hpp"
 #include "lib/log/recorder/corrected_source.hpp"
 #include "lib/robot/axis_units.hpp"
@@ -22,21 +22,9 @@ namespace {
 constexpr const char* kNotOfTheRobot = "; `faultline diagnose` judges whether the robot has a fault";
 
 const char* unit_of(Quantity quantity, AxisKind axis) {
-  switch (quantity) {
-    case Quantity::time:
-      return "s";
-    case Quantity::q:
-    case Quantity::q_ref:
-      return position_unit(axis);
-    case Quantity::dq:
-    case Quantity::dq_ref:
-      return velocity_unit(axis);
-    case Quantity::tau:
-    case Quantity::tau_ref:
-    case Quantity::tau_meas:
-      return torque_unit(axis);
-  }
-  return "";
+  if (quantity == Quantity::time) return "s";
+  if (is_torque(quantity)) return torque_unit(axis);
+  return basic_quantity(quantity) == Quantity::q ? position_unit(axis) : velocity_unit(axis);
 }
 
 /// Returns the unit of a channel; the units of both kinds of axis if no robot with that joint is given.

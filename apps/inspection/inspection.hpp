@@ -15,6 +15,7 @@
 #include "lib/log/log_source.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/log/raw_reader.hpp"
+#include "lib/log/velocity_check.hpp"
 #include "lib/plausibility/checkup/checkup.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -117,5 +118,35 @@ std::string inspection_text(const Inspection& inspection, bool color);
 nlohmann::ordered_json inspection_json(const Inspection& inspection);
 /// Returns several logs as JSON, schema "faultline/inspection/1".
 std::string inspections_json(const std::vector<Inspection>& inspections);
+
+/// Returns one self-contained page without scripts: the verdicts, the issues, and pictures of all channels.
+std::string inspection_page(const std::vector<Inspection>& inspections);
+
+/// Returns pictures of the channels with gaps and stuck stretches shaded; empty without rows. `prefix` makes
+/// the names inside them unique to this log.
+std::string inspection_figures(const Inspection& inspection, const std::string& prefix);
+
+/// Estimates the time between two rows of a log without a clock from the changes of position per row,
+/// compared with the velocities.
+class RowClock {
+ public:
+  /// Uses a table that `columns` map to a joint log except for the time; any other table gives no estimate.
+  RowClock(const std::vector<RawColumn>& table, ColumnMap columns, const std::string& path);
+  void add(const RawBlock& block);
+
+  struct Estimate {
+    double period_s = 0.0;
+    double std_s = 0.0;
+  };
+  /// Returns nullopt unless the moving joints agree.
+  std::optional<Estimate> estimate() const;
+
+ private:
+  std::vector<double> values_of(const RawBlock& block, Channel channel) const;
+
+  Matching matching_;
+  std::vector<VelocityCheck> joints_;
+  std::vector<double> rows_;
+};
 
 }  // namespace faultline

@@ -6,10 +6,11 @@
 #include <map>
 #include <utility>
 
-#include "apps/inspection/inspection_page.hpp"
+#include "apps/inspection/inspection.hpp"
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
+#include "lib/log/columns/unit_fit.hpp"
 #include "lib/report/plot/line_plot.hpp"
 
 namespace faultline {
@@ -18,40 +19,6 @@ namespace {
 constexpr std::size_t kMostBands = 200;
 constexpr int kWidth = 420, kPanelHeight = 130;
 constexpr double kGapSteps = 3.0;
-
-enum class FigureKind { position, velocity, torque, other };
-
-FigureKind kind_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::q:
-    case Quantity::q_ref:
-      return FigureKind::position;
-    case Quantity::dq:
-    case Quantity::dq_ref:
-      return FigureKind::velocity;
-    case Quantity::tau:
-    case Quantity::tau_ref:
-    case Quantity::tau_meas:
-      return FigureKind::torque;
-    case Quantity::time:
-      break;
-  }
-  return FigureKind::other;
-}
-
-const char* word_of(FigureKind kind) {
-  switch (kind) {
-    case FigureKind::position:
-      return "position";
-    case FigureKind::velocity:
-      return "velocity";
-    case FigureKind::torque:
-      return "torque";
-    case FigureKind::other:
-      break;
-  }
-  return "";
-}
 
 /// The channels in one picture.
 struct ChannelGroup {
@@ -66,7 +33,7 @@ std::string unit_in(const Inspection& inspection, const std::string& name) {
 }
 
 std::vector<ChannelGroup> groups_of(const Inspection& inspection) {
-  std::map<std::pair<int, FigureKind>, ChannelGroup> joints;
+  std::map<std::pair<int, Quantity>, ChannelGroup> joints;
   std::vector<ChannelGroup> others;
   for (const OverviewChannel& channel : inspection.overview.channels) {
     const auto known = channel.canonical ? canonical_channel(channel.name) : std::nullopt;
@@ -75,9 +42,9 @@ std::vector<ChannelGroup> groups_of(const Inspection& inspection) {
       others.push_back({shortened(channel.name, kLongestName), unit, {&channel}});
       continue;
     }
-    const FigureKind kind = kind_of(known->quantity);
-    ChannelGroup& group = joints[{known->joint, kind}];
-    group.caption = fmt::format("joint {}: {}", known->joint, word_of(kind));
+    const Quantity quantity = basic_quantity(known->quantity);
+    ChannelGroup& group = joints[{known->joint, quantity}];
+    group.caption = fmt::format("joint {}: {}", known->joint, meaning_of(quantity));
     group.unit = unit;
     group.channels.push_back(&channel);
   }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "apps/inspection/inspection_page.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "apps/inspection/inspection.hpp"
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
@@ -17,12 +16,6 @@ namespace {
 
 constexpr std::size_t kShownGaps = 20;
 constexpr std::size_t kShownChannels = 200;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 /// Returns the colour of the verdict, as in reports.
 const char* colour_of(const Inspection& inspection) {
@@ -89,7 +82,7 @@ std::string analyses(const Inspection& inspection, const Headings& headings) {
     std::string sentence = analysis.why;
     if (!analysis.help.empty()) sentence += "; " + analysis.help;
     if (!analysis.channels.empty())
-      sentence += (sentence.empty() ? "from " : "; from ") + joined(analysis.channels);
+      sentence += fmt::format("{}from {}", sentence.empty() ? "" : "; ", fmt::join(analysis.channels, ", "));
     text += item(to_string(analysis.fit), analysis.what, sentence);
   }
   return headings.of_part("Possible analyses") + "<ul>\n" + text + "</ul>\n";

@@ -68,9 +68,7 @@ std::string joint_line(const JointCheckup& joint, std::size_t number) {
   if (!std::isnan(joint.torque.delay_rows))
     words.push_back(fmt::format("{:.1f} +- {:.1f} rows late", joint.torque.delay_rows,
                                 joint.torque.delay_uncertainty_rows));
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
-  return line.empty() ? "" : fmt::format("  joint {}   {}\n", number, line);
+  return words.empty() ? "" : fmt::format("  joint {}   {}\n", number, fmt::join(words, ", "));
 }
 
 std::string analysis_line(const PossibleAnalysis& analysis, bool color) {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "apps/inspection/row_clock.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "apps/inspection/inspection.hpp"
 #include "lib/core/statistics.hpp"
 
 namespace faultline {

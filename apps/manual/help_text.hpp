@@ -26,4 +26,9 @@ struct ManPage {
 /// and no date, so that the same program gives the same bytes.
 std::vector<ManPage> man_pages(const CommandDescription& command);
 
+// Scripts by which a shell completes commands, options, and values that are few words; else files.
+std::string bash_completion(const CommandDescription& program);
+std::string zsh_completion(const CommandDescription& program);
+std::string fish_completion(const CommandDescription& program);
+
 }  // namespace faultline

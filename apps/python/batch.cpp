@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include "apps/python/bindings.hpp"
-#include "apps/python/loaded_model.hpp"
 #include "apps/python/watched_work.hpp"
 #include "apps/work/batching.hpp"
 

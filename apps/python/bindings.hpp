@@ -3,10 +3,24 @@
 
 #include <pybind11/pybind11.h>
 
+#include <memory>
+#include <string>
+
+#include "apps/work/file_use.hpp"
+#include "lib/cases/case_base.hpp"
+#include "lib/model/model.hpp"
+
 namespace faultline {
 
+/// A model with its case base, read once for any number of logs and never changed.
+struct LoadedModel {
+  ModelPaths paths;  ///< files that it was read from; empty for one that was learned and not written
+  Model model;
+  CaseBase cases;
+};
+using SharedModel = std::shared_ptr<const LoadedModel>;
+
 // One function per concept, each in its own file: adds its types and functions to the module.
-void bind_errors(pybind11::module_& module);
 void bind_log(pybind11::module_& module);
 void bind_model(pybind11::module_& module);
 void bind_networks(pybind11::module_& module);

@@ -7,9 +7,7 @@
 #include <string>
 
 #include "apps/python/bindings.hpp"
-#include "apps/python/loaded_model.hpp"
 #include "apps/python/log_handle.hpp"
-#include "apps/python/owned_array.hpp"
 #include "lib/core/error.hpp"
 #include "lib/diagnose/curves/run_curves.hpp"
 #include "lib/diagnose/diagnose.hpp"

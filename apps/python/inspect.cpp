@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "apps/inspection/inspection.hpp"
-#include "apps/inspection/inspection_page.hpp"
 #include "apps/python/bindings.hpp"
 #include "apps/python/log_handle.hpp"
 

@@ -8,9 +8,7 @@
 #include <utility>
 
 #include "apps/python/bindings.hpp"
-#include "apps/python/loaded_model.hpp"
 #include "apps/python/log_handle.hpp"
-#include "apps/work/carried_cases.hpp"
 #include "apps/work/file_use.hpp"
 #include "apps/work/learned_text.hpp"
 #include "apps/work/learning.hpp"

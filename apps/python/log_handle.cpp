@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "apps/python/bindings.hpp"
-#include "apps/python/owned_array.hpp"
 #include "apps/work/robot_log.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
@@ -71,72 +70,63 @@ class ColumnReader : public RawReader {
   ColumnReader(std::vector<ColumnView> columns, std::string name);
 
   const std::vector<RawColumn>& columns() const override { return names_; }
-  void want(const std::vector<bool>& columns) override { wanted_ = columns; }
-  bool next(RawBlock& block, int max_rows) override;
-  void rewind() override;
-  const LogIdentity& identity() const override { return identity_; }
+  bool next(RawBlock& block, int max_rows) override {
+    const std::int64_t first = identity_.rows_read;
+    if (first == 0) tell_text();
+    if (first >= rows_) {
+      if (identity_.sha256.empty()) identity_.sha256 = sha256_of(columns_);
+      return false;
+    }
+    const std::int64_t rows = std::min<std::int64_t>(max_rows, rows_ - first);
+    block.first_row = first;
+    block.rows = static_cast<int>(rows);
+    block.columns.resize(columns_.size());
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      std::vector<double>& to = block.columns[i];
+      to.clear();
+      if (!wanted_[i]) continue;
+      if (columns_[i].is_text) {
+        to.assign(static_cast<std::size_t>(rows), std::nan(""));
+        continue;
+      }
+      const auto values =
+          columns_[i].values.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(rows));
+      to.assign(values.begin(), values.end());
+    }
+    identity_.rows_read += rows;
+    return true;
+  }
+
+  void rewind() override {
+    identity_.rows_read = 0;
+    issues_ = {};
+  }
+
   const Issues& issues() const override { return issues_; }
-  double share_read() const override;
+  double share_read() const override {
+    return rows_ > 0 ? static_cast<double>(identity_.rows_read) / static_cast<double>(rows_) : 1.0;
+  }
 
  private:
-  void tell_text();
+  void tell_text() {
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (columns_[i].is_text && wanted_[i] && issues_.find("not_a_number", names_[i].name) == nullptr)
+        issues_.add(make_issue("not_a_number", Severity::warning,
+                               "the column holds no numbers; all its cells are missing", names_[i].name));
+  }
 
   std::vector<ColumnView> columns_;
   std::vector<RawColumn> names_;
-  std::vector<bool> wanted_;
-  LogIdentity identity_;
   Issues issues_;
   std::int64_t rows_ = 0;
 };
 
 ColumnReader::ColumnReader(std::vector<ColumnView> columns, std::string name)
-    : columns_(std::move(columns)), wanted_(columns_.size(), true), rows_(rows_of(columns_, name)) {
+    : columns_(std::move(columns)), rows_(rows_of(columns_, name)) {
+  wanted_.assign(columns_.size(), true);
   for (const ColumnView& column : columns_) names_.push_back(column.column);
   identity_.path = std::move(name);
   identity_.format = "arrays";
-}
-
-void ColumnReader::rewind() {
-  identity_.rows_read = 0;
-  issues_ = {};
-}
-
-bool ColumnReader::next(RawBlock& block, int max_rows) {
-  const std::int64_t first = identity_.rows_read;
-  if (first == 0) tell_text();
-  if (first >= rows_) {
-    if (identity_.sha256.empty()) identity_.sha256 = sha256_of(columns_);
-    return false;
-  }
-  const std::int64_t rows = std::min<std::int64_t>(max_rows, rows_ - first);
-  block.first_row = first;
-  block.rows = static_cast<int>(rows);
-  block.columns.resize(columns_.size());
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    std::vector<double>& to = block.columns[i];
-    to.clear();
-    if (!wanted_[i]) continue;
-    if (columns_[i].is_text) {
-      to.assign(static_cast<std::size_t>(rows), std::nan(""));
-      continue;
-    }
-    const auto values =
-        columns_[i].values.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(rows));
-    to.assign(values.begin(), values.end());
-  }
-  identity_.rows_read += rows;
-  return true;
-}
-
-double ColumnReader::share_read() const {
-  return rows_ > 0 ? static_cast<double>(identity_.rows_read) / static_cast<double>(rows_) : 1.0;
-}
-
-void ColumnReader::tell_text() {
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (columns_[i].is_text && wanted_[i] && issues_.find("not_a_number", names_[i].name) == nullptr)
-      issues_.add(make_issue("not_a_number", Severity::warning,
-                             "the column holds no numbers; all its cells are missing", names_[i].name));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/python/watched_work.hpp"
@@ -55,5 +56,16 @@ class LogHandle {
 
 /// Returns the robot of a robot file or of an order of axes; nullopt for an empty name.
 std::optional<Robot> robot_named(const std::string& robot);
+
+/// Returns an array that owns the values, which are not copied.
+template <typename Value>
+pybind11::array_t<Value> owned_array(std::vector<Value>&& values) {
+  auto kept = std::make_unique<std::vector<Value>>(std::move(values));
+  const auto size = static_cast<pybind11::ssize_t>(kept->size());
+  const Value* const data = kept->data();
+  const pybind11::capsule owner(kept.release(),
+                                [](void* vector) { delete static_cast<std::vector<Value>*>(vector); });
+  return pybind11::array_t<Value>(size, data, owner);
+}
 
 }  // namespace faultline

@@ -2,7 +2,6 @@
 #include "lib/model/model.hpp"
 
 #include "apps/python/bindings.hpp"
-#include "apps/python/loaded_model.hpp"
 #include "apps/python/watched_work.hpp"
 #include "apps/work/learning.hpp"
 #include "lib/model/model_files.hpp"

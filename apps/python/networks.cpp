@@ -9,12 +9,9 @@
 #include <utility>
 
 #include "apps/python/bindings.hpp"
-#include "apps/python/loaded_model.hpp"
 #include "apps/python/log_handle.hpp"
 #include "apps/python/network_layout.hpp"
-#include "apps/python/owned_array.hpp"
 #include "apps/work/file_use.hpp"
-#include "apps/work/folder.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/diagnose/describe_episode.hpp"

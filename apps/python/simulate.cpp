@@ -5,7 +5,6 @@
 
 #include "apps/python/bindings.hpp"
 #include "apps/python/watched_work.hpp"
-#include "apps/work/reproduction.hpp"
 #include "apps/work/simulation.hpp"
 
 namespace faultline {

@@ -8,8 +8,6 @@
 #include <limits>
 #include <optional>
 
-#include "apps/suggestion/column_guess.hpp"
-#include "apps/suggestion/unit_guess.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/column_matching.hpp"
 #include "lib/log/columns/unit_fit.hpp"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "apps/suggestion/unit_guess.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "apps/suggestion/robot_guess.hpp"
 #include "lib/log/time_axis.hpp"
 #include "lib/log/units.hpp"
 

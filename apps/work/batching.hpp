@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/work/model_paths.hpp"
+#include "apps/work/file_use.hpp"
 #include "lib/batch/run_batch.hpp"
 
 namespace faultline {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <regex>
 
+#include "lib/cases/case_file.hpp"
 #include "lib/cases/sqlite.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/output_place.hpp"
@@ -53,6 +54,8 @@ bool is_below(const std::string& real, const std::string& real_folder) {
 }
 
 }  // namespace
+
+std::string ModelPaths::case_base() const { return cases.empty() ? case_base_path(model) : cases; }
 
 void FileUse::keep(const std::string& what, const std::string& path) {
   const std::string identity = path.empty() ? "" : file_identity(path);
@@ -170,6 +173,14 @@ void FileUse::claim() const {
   for (const Named& output : outputs_)
     if (output.path != "-" && !output.identity.empty()) remove_abandoned_files(folder_of(output.path));
   for (const Named& folder : output_folders_) remove_abandoned_files(folder.path);
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw Error(ErrorCode::output, folder,
+                "cannot be created as a folder for the results; give another with -o");
 }
 
 }  // namespace faultline

@@ -5,9 +5,15 @@
 #include <unordered_map>
 #include <vector>
 
-#include "apps/work/model_paths.hpp"
-
 namespace faultline {
+
+/// A model and its case base.
+struct ModelPaths {
+  std::string model;
+  std::string cases;  ///< empty: beside the model
+
+  std::string case_base() const;
+};
 
 /// The files that a command will read and write. Ensures that no result replaces an input, a file that
 /// belongs to an input, or another result; nor, by their names, a case base, the journal of a batch or golden
@@ -55,5 +61,8 @@ class FileUse {
   std::unordered_map<std::string, Named> inputs_;  ///< by identity
   std::vector<Named> input_folders_, outputs_, output_folders_;
 };
+
+/// Creates the folder for results, with its parents, if it does not exist. Throws Error(output).
+void make_folder(const std::string& folder);
 
 }  // namespace faultline

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/work/model_paths.hpp"
+#include "apps/work/file_use.hpp"
 #include "lib/golden/accept.hpp"
 #include "lib/golden/check.hpp"
 #include "lib/golden/record.hpp"

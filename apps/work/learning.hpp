@@ -2,12 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/work/file_use.hpp"
 #include "apps/work/labels.hpp"
-#include "apps/work/model_paths.hpp"
 #include "lib/cases/carry_over.hpp"
 #include "lib/learn/learn.hpp"
 
@@ -34,5 +35,9 @@ void check_writable(const ModelPaths& paths, const Robot& robot);
 /// `cases`. The case base comes first, as only it holds data that cannot be made again. A kill between the
 /// two leaves two identities, which load_model_files() detects and learning again repairs.
 std::optional<CarriedCases> write_model(const Model& model, CaseBase& cases, const ModelPaths& paths);
+
+/// Reports the fate of the existing cases in a sentence or two; empty if there were none.
+std::string carried_text(const std::optional<CarriedCases>& carried);
+nlohmann::ordered_json carried_json(const CarriedCases& carried);
 
 }  // namespace faultline

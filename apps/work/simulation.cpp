@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/work/file_use.hpp"
-#include "apps/work/folder.hpp"
 #include "formats/log_writer.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/log/transformed/coupled_source.hpp"
@@ -46,6 +45,15 @@ void claim_files(const SimulateRequest& request, const SimulationFile& file) {
   files.writes("the labels,", labels_path(request)).claim();
 }
 
+/// Writes pictures first, the pages that refer to them last.
+void write_reproduction(const std::filesystem::path& folder, const Reproduction& reproduction,
+                        const std::string& json) {
+  for (const Figure& figure : reproduction.figures)
+    write_file((folder / (figure.id + ".svg")).string(), render_svg(figure.plot));
+  write_file((folder / "index.md").string(), reproduction_markdown(reproduction));
+  write_file((folder / "index.json").string(), json);
+}
+
 }  // namespace
 
 nlohmann::ordered_json simulate_into(const SimulateRequest& request, const Progress& progress) {
@@ -66,6 +74,16 @@ nlohmann::ordered_json simulate_into(const SimulateRequest& request, const Progr
   }
   write_file(labels_path(request), labels);
   return {{"schema", "faultline/simulation/1"}, {"robot", file.robot.name}, {"runs", runs}};
+}
+
+ReproducedFolder reproduce_into(const std::string& folder, const ReproduceOptions& options,
+                                const Progress& progress) {
+  options.check();
+  make_folder(folder);
+  ReproducedFolder out{reproduce(options, progress), {}};
+  out.json = reproduction_json(out.reproduction);
+  write_reproduction(folder, out.reproduction, out.json);
+  return out;
 }
 
 }  // namespace faultline

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lib/core/progress.hpp"
+#include "lib/reproduce/reproduce.hpp"
 
 namespace faultline {
 
@@ -18,5 +19,14 @@ struct SimulateRequest {
 
 /// Writes the logs of a spec file and their labels.csv; returns a summary, schema "faultline/simulation/1".
 nlohmann::ordered_json simulate_into(const SimulateRequest& request, const Progress& progress);
+
+struct ReproducedFolder {
+  Reproduction reproduction;
+  std::string json;  ///< as in index.json
+};
+
+/// Rebuilds the paper's tables and figures into the folder: index.md, index.json and the pictures.
+ReproducedFolder reproduce_into(const std::string& folder, const ReproduceOptions& options,
+                                const Progress& progress);
 
 }  // namespace faultline

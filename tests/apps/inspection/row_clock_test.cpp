@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "apps/inspection/row_clock.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "apps/inspection/inspection.hpp"
 
 namespace faultline {
 namespace {
