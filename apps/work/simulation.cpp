@@ -8,7 +8,6 @@
 #include "formats/log_writer.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/log/transformed/coupled_source.hpp"
-#include "lib/simulate/run_labels.hpp"
 #include "lib/simulate/spec_file.hpp"
 
 namespace faultline {

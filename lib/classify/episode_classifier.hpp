@@ -9,8 +9,8 @@
 
 #include "lib/fault/opinion.hpp"
 #include "lib/neural/mlp.hpp"
+#include "lib/neural/patterns.hpp"
 #include "lib/neural/rbfn.hpp"
-#include "lib/neural/scaler.hpp"
 
 namespace faultline {
 

@@ -8,6 +8,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/fault/fault_words.hpp"
 #include "lib/fault/label_text.hpp"
 
 namespace faultline {
@@ -19,8 +20,62 @@ constexpr double kMeanOfHalfSine = 2.0 / std::numbers::pi;
 constexpr double kShortest_s = 1e-3, kLongest_s = 3.0;  // durations are bounded to this range
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
+// Conversions between numbers and features: deficit of evidence to the most likely label in nats, and the
+// weight of the size of a label with that deficit.
+constexpr double kLargestDeficit = 300.0;  // nats; a label with more is excluded anyway
+
+double feature_of_deficit(double nats) { return -elementary::log1p(std::min(nats, kLargestDeficit)); }
+
+double deficit_of_feature(double feature) { return elementary::exp(-feature) - 1.0; }
+
+double size_counts(double deficit_nats) {
+  return elementary::exp(-std::min(deficit_nats, kLargestDeficit) / kSizeFades);
+}
+
 /// Returns the size bounded to -1..1; 0 for a hypothesis that diverged.
 double bounded_size(double size) { return std::isfinite(size) ? elementary::tanh(size) : 0.0; }
+
+constexpr double kHardlyCounts = 0.5;  // weight of a size below which it is not shown
+constexpr double kLargestTanh = 0.9999;
+constexpr double kRounding = 1e-6;
+constexpr double kPercent = 100.0;
+constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
+
+/// Returns the deficit in nats, without rounding error at its bound kLargestDeficit.
+double nats_behind(double feature) {
+  const double nats = deficit_of_feature(feature);
+  return nats > kLargestDeficit - kRounding ? kLargestDeficit : nats;
+}
+
+std::string quoted(const FaultLabel& label) { return "\"" + plain_words(label) + "\""; }
+
+/// Returns the size divided by its feature_scale(), without the weight and the bound of the feature.
+double unfaded_size(std::span<const EpisodeFeature> list, std::size_t which,
+                    std::span<const double> features) {
+  const auto behind = std::find_if(list.begin(), list.end(), [&](const EpisodeFeature& f) {
+    return f.role == FeatureRole::behind && f.label == list[which].label;
+  });
+  if (behind == list.end()) return kNotTold;
+  const double counts = size_counts(deficit_of_feature(features[behind - list.begin()]));
+  if (!(counts > kHardlyCounts)) return kNotTold;
+  const double tanh = std::clamp(features[which] / counts, -kLargestTanh, kLargestTanh);
+  return 0.5 * elementary::log1p(2.0 * tanh / (1.0 - tanh));  // inverse of tanh
+}
+
+DescribedFeature read_size(std::span<const EpisodeFeature> list, std::size_t which,
+                           std::span<const double> features, const UsualMotion& usual, const Chain& chain) {
+  const FaultLabel& label = list[which].label;
+  const int j = label.joint - 1, s = list[which].size;
+  DescribedFeature reading{"size of " + quoted(label), "", kNotTold};
+  if (j < 0 || j >= usual.joints() || s >= describe(label.kind).size_count) return reading;
+  const FaultSize& size = describe(label.kind).size[s];
+  const bool turns = chain.geometry[j].kind == AxisKind::revolute;
+  const bool is_share = size.feature == SizeMeasure::torque_share;
+  reading.unit = is_share ? "%" : unit_of(size.feature, turns);
+  reading.value = unfaded_size(list, which, features) * feature_scale(usual, size.feature, j) *
+                  (is_share ? kPercent : 1.0);
+  return reading;
+}
 
 }  // namespace
 
@@ -131,12 +186,24 @@ std::vector<std::string> episode_feature_names(std::span<const FaultLabel> label
   return names;
 }
 
-double feature_of_deficit(double nats) { return -elementary::log1p(std::min(nats, kLargestDeficit)); }
-
-double deficit_of_feature(double feature) { return elementary::exp(-feature) - 1.0; }
-
-double size_counts(double deficit_nats) {
-  return elementary::exp(-std::min(deficit_nats, kLargestDeficit) / kSizeFades);
+DescribedFeature describe_feature(std::span<const EpisodeFeature> list, std::size_t which,
+                                  std::span<const double> features, const UsualMotion& usual,
+                                  const Chain& chain) {
+  const double x = features[which];
+  switch (list[which].role) {
+    case FeatureRole::behind:
+      return {quoted(list[which].label) + " behind the best explanation", "nats", nats_behind(x)};
+    case FeatureRole::size:
+      return read_size(list, which, features, usual, chain);
+    case FeatureRole::strength:
+      return {"log-likelihood ratio of the fault to a healthy robot", "nats", elementary::exp(x) - 1.0};
+    case FeatureRole::duration:
+      return {"time from onset to end", "s", elementary::exp(x)};
+    case FeatureRole::residual:
+      return {"MLP residual of joint " + std::to_string(list[which].joint), "times healthy",
+              elementary::exp(x)};
+  }
+  return {};
 }
 
 }  // namespace faultline

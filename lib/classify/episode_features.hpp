@@ -10,7 +10,7 @@
 #include "lib/explain/decide_log.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/identify/usual_motion.hpp"
-#include "lib/residual/residual_summary.hpp"
+#include "lib/residual/residuals.hpp"
 
 namespace faultline {
 
@@ -42,7 +42,6 @@ double posterior_of(const FaultLabel& label, const std::vector<LabelEvidence>& e
 std::vector<double> episode_features(const std::vector<LabelEvidence>& evidence, double lasts_s,
                                      std::span<const JointResidual> residuals, int joints);
 
-/// The meaning of a feature of an episode.
 enum class FeatureRole {
   behind,    ///< deficit of evidence of `label` to the most likely label
   size,      ///< size number `size` of `label`, in the order of its kind
@@ -62,11 +61,17 @@ std::vector<EpisodeFeature> episode_feature_list(std::span<const FaultLabel> lab
 std::string name_of(const EpisodeFeature& feature);
 std::vector<std::string> episode_feature_names(std::span<const FaultLabel> labels, int joints);
 
-// Conversions between numbers and features: deficit of evidence to the most likely label in nats (at most
-// kLargestDeficit), and the weight of the size of a label with that deficit.
-inline constexpr double kLargestDeficit = 300.0;  ///< nats; a label with more is excluded anyway
-double feature_of_deficit(double nats);
-double deficit_of_feature(double feature);
-double size_counts(double deficit_nats);
+/// A feature of an episode for a person: in words, and in a unit instead of its logarithm.
+struct DescribedFeature {
+  std::string what;                                         ///< such as "MLP residual of joint 2"
+  std::string unit;                                         ///< empty for a number without unit
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN if the feature does not determine it
+};
+
+/// Returns feature `which` of `features`, whose meaning is `list`. The size of a label far less likely than
+/// the best one is NaN.
+DescribedFeature describe_feature(std::span<const EpisodeFeature> list, std::size_t which,
+                                  std::span<const double> features, const UsualMotion& usual,
+                                  const Chain& chain);
 
 }  // namespace faultline

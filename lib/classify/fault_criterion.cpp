@@ -11,7 +11,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kSecondsPerHour = 3600.0;
 constexpr double kFewestFound = 0.9;  // of the largest number of detections of any setting
 constexpr double kFreeMargin = 0.97;  // least share of the detections that the next larger setting must keep
 
@@ -198,10 +197,6 @@ CriterionScore score_criterion(const CriterionOptions& options, const OutputMean
   for (const LabelledOutputs& run : runs) {
     if (run.time.size() == 0) continue;
     const bool faulty = run.fault.kind != FaultKind::none;
-    const double healthy_until =
-        faulty ? std::min(run.onset_s, run.time[run.time.size() - 1]) : run.time[run.time.size() - 1];
-    score.fault_free_hours += std::max(0.0, healthy_until - run.time[0]) / kSecondsPerHour;
-    score.faulty_runs += faulty;
     bool found = false;
     for (const SampleEpisode& episode : all_episodes(options, meaning, run)) {
       if (!faulty || episode.alarm_s < run.onset_s) {

@@ -42,14 +42,13 @@ struct SampleEpisode {
 /// State carried over a segment border. Owns its data; start with a new one for each log.
 struct CriterionState {
   int run_output = -1, run_length = 0;  // number of successive equal largest outputs
-  double run_start_s = 0.0, run_last_s = 0.0;
+  double run_start_s = 0.0;
   Eigen::VectorXd sum, sum_start_s;  // of log odds, one for each output
   Eigen::VectorXd votes, support;    // of each fault, since the start of the run or the sums
   double healthy_sum = 0.0;          // evidence that an open episode has ended
   std::optional<SampleEpisode> open;
 };
 
-/// Meaning of the outputs.
 struct OutputMeaning {
   std::vector<FaultLabel> classes;  ///< the last is `none`
   Eigen::VectorXd prior;            ///< share of each class in the training samples; empty = equal
@@ -77,10 +76,8 @@ struct LabelledOutputs {
 struct CriterionScore {
   CriterionOptions options;
   int false_alarms = 0;  ///< alarms before the onset or in fault-free runs
-  double fault_free_hours = 0.0;
-  int faulty_runs = 0;
-  int detected = 0;  ///< runs with an alarm at or after the onset
-  int right = 0;     ///< detected runs with the right kind and joint
+  int detected = 0;      ///< runs with an alarm at or after the onset
+  int right = 0;         ///< detected runs with the right kind and joint
   double median_delay_s = std::numeric_limits<double>::quiet_NaN();  ///< of the detected runs
 };
 CriterionScore score_criterion(const CriterionOptions& options, const OutputMeaning& meaning,

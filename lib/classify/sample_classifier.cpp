@@ -53,7 +53,6 @@ bool comes_before(const FaultLabel& a, const FaultLabel& b) {
          std::pair(b.kind == FaultKind::none, std::pair(b.kind, b.joint));
 }
 
-/// One sample of one run.
 struct Place {
   int run = 0;
   int sample = 0;

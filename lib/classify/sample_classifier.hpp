@@ -11,8 +11,8 @@
 
 #include "lib/core/progress.hpp"
 #include "lib/fault/fault_kind.hpp"
+#include "lib/neural/patterns.hpp"
 #include "lib/neural/rbfn.hpp"
-#include "lib/neural/scaler.hpp"
 #include "lib/neural/training.hpp"
 #include "lib/residual/residuals.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "lib/cases/case_origin.hpp"
 #include "lib/cases/compare_cases.hpp"
-#include "lib/classify/described_feature.hpp"
+#include "lib/classify/episode_features.hpp"
 
 namespace faultline {
 namespace {

@@ -3,18 +3,10 @@
 #include <numeric>
 #include <vector>
 
-#include "lib/core/random.hpp"
 #include "lib/neural/training.hpp"
 #include "lib/neural/training_monitor.hpp"
 
 namespace faultline {
-namespace {
-
-void shuffle(std::vector<int>& order, Random& random) {
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-}
-
-}  // namespace
 
 TrainedMlp train_back_propagation(Mlp start, const Patterns& training, const Patterns& validation,
                                   const BackPropagationOptions& options, const Progress& progress) {

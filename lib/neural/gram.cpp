@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/neural/gram.hpp"
-
 #include <algorithm>
 #include <cstring>
 #include <vector>
+
+#include "lib/neural/kernels.hpp"
 
 namespace faultline {
 namespace {
@@ -77,10 +77,6 @@ void pack(const Eigen::MatrixXd& features, Index first, int count, std::vector<P
 }
 
 }  // namespace
-
-void add_gram(const Eigen::MatrixXd& features, Eigen::MatrixXd& gram) {
-  add_gram(features, gram, best_vector_unit());
-}
 
 void add_gram(const Eigen::MatrixXd& features, Eigen::MatrixXd& gram, VectorUnit unit) {
   const TileKernel tile = tile_for(unit);

@@ -7,8 +7,8 @@
 #include "lib/core/error.hpp"
 #include "lib/core/json/json_matrix.hpp"
 #include "lib/neural/mlp.hpp"
+#include "lib/neural/patterns.hpp"
 #include "lib/neural/rbfn.hpp"
-#include "lib/neural/scaler.hpp"
 
 namespace faultline {
 

@@ -155,11 +155,6 @@ LayerNumbers numbers_of(const Eigen::MatrixXd& first, const Second& second) {
   return {first.data(), second.data(), static_cast<int>(first.rows()), static_cast<int>(first.cols())};
 }
 
-const Kernels& kernels() {
-  static const Kernels chosen = kernels_for(best_vector_unit());
-  return chosen;
-}
-
 }  // namespace
 
 VectorUnit best_vector_unit() {
@@ -170,13 +165,8 @@ VectorUnit best_vector_unit() {
   return VectorUnit::baseline;
 }
 
-void tanh_in_place(double* values, int count) { kernels().tanh(values, count); }
 void tanh_in_place(double* values, int count, VectorUnit unit) { kernels_for(unit).tanh(values, count); }
 
-void affine_lanes(const Eigen::MatrixXd& weights, const Eigen::VectorXd& bias, const double* in,
-                  double* out) {
-  kernels().affine(numbers_of(weights, bias), in, out);
-}
 void affine_lanes(const Eigen::MatrixXd& weights, const Eigen::VectorXd& bias, const double* in, double* out,
                   VectorUnit unit) {
   kernels_for(unit).affine(numbers_of(weights, bias), in, out);
@@ -184,7 +174,7 @@ void affine_lanes(const Eigen::MatrixXd& weights, const Eigen::VectorXd& bias, c
 
 void squared_distances_lanes(const Eigen::MatrixXd& centres, const Eigen::MatrixXd& inverse_radii,
                              const double* in, double* sums) {
-  kernels().distance(numbers_of(centres, inverse_radii), in, sums);
+  kernels_for(best_vector_unit()).distance(numbers_of(centres, inverse_radii), in, sums);
 }
 
 }  // namespace faultline

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/neural/gram.hpp"
 #include "lib/neural/kernels.hpp"
 
 namespace faultline {

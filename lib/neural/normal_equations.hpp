@@ -30,7 +30,6 @@ class GaussNewtonSystem {
  public:
   GaussNewtonSystem(const Mlp& mlp, const Eigen::Ref<const Eigen::MatrixXd>& inputs, double weight_decay);
 
-  /// Mean of the diagonal of the matrix.
   double mean_diagonal() const { return matrix_.diagonal().mean(); }
 
   /// Solves (matrix + damping I) step = -gradient, with zeros for outputs that are fitted. `gradient` has all

@@ -3,6 +3,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "lib/core/random.hpp"
 
 namespace faultline {
 
@@ -19,6 +24,9 @@ struct PatternSplit {
   Patterns validation;
 };
 
+/// Puts the numbers into a random order.
+void shuffle(std::vector<int>& order, Random& random);
+
 /// Draws `validation_share` (0 to 1) of the patterns for validation, at random by `seed`; keeps their order.
 PatternSplit split_patterns(const Patterns& patterns, double validation_share, std::uint64_t seed = 1);
 
@@ -26,5 +34,25 @@ PatternSplit split_patterns(const Patterns& patterns, double validation_share, s
 /// (inputs, outputs; -1 = any) disagree, or if a number is not finite; `where` names the origin of the
 /// patterns.
 void check_patterns(const Patterns& patterns, int inputs, int outputs, const char* where);
+
+/// Scaled = (value - offset) * factor for each row. A constant row has factor 1, so that it scales to 0.
+struct Scaler {
+  Eigen::VectorXd offset;
+  Eigen::VectorXd factor;
+
+  int size() const { return static_cast<int>(offset.size()); }
+  /// `values` and the result are size() x samples.
+  Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& values) const;
+  Eigen::MatrixXd invert(const Eigen::Ref<const Eigen::MatrixXd>& scaled) const;
+};
+
+/// Scales the range of the values to [-1, 1] (the paper's normalisation to half range).
+Scaler range_scaler(const Eigen::Ref<const Eigen::MatrixXd>& values);
+/// Scales to mean 0 and standard deviation 1.
+Scaler standard_scaler(const Eigen::Ref<const Eigen::MatrixXd>& values);
+
+void to_json(nlohmann::json& json, const Scaler& scaler);
+/// Throws Error(input) if a number is missing or a factor is 0; `where` names the file.
+Scaler scaler_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace faultline

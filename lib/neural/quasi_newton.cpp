@@ -32,7 +32,6 @@ VectorXd direction(const std::deque<Pair>& memory, const VectorXd& gradient) {
   return d;
 }
 
-/// Weights and their loss.
 struct Point {
   VectorXd weights;
   LossGradient cost;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/neural/mlp.hpp"
-#include "lib/neural/scaler.hpp"
+#include "lib/neural/patterns.hpp"
 #include "lib/residual/transitions.hpp"
 #include "lib/robot/chain.hpp"
 

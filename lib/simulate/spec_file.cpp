@@ -9,15 +9,134 @@
 #include <utility>
 
 #include "lib/core/atomic_file.hpp"
+#include "lib/core/csv_cell.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/open_ending.hpp"
+#include "lib/core/random.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot_file.hpp"
-#include "lib/simulate/spec_sections.hpp"
+#include "lib/robot/toml/toml_table.hpp"
 
 namespace faultline {
 namespace {
+
+// Readers of the sections; absent keys keep the values of the spec given. check_simulation() checks the
+// values against each other and the robot.
+
+/// Returns a whole number from 0 to 1000, for joints and counts.
+int small_integer(const TomlTable& table, const std::string& key, int fallback) {
+  const std::int64_t value = table.integer(key, fallback);
+  if (value < 0 || value > 1000)
+    table.fail(key, fmt::format("expected a whole number from 0 to 1000, found {}", value));
+  return static_cast<int>(value);
+}
+
+void read_span(const TomlTable& table, const std::string& key, double& low, double& high) {
+  if (!table.has(key)) return;
+  const auto ends = table.is_array(key) ? table.numbers(key, 2) : table.each(key, 2);
+  low = ends[0];
+  high = ends[1];
+}
+
+/// A key and the list that it sets, one number for each joint.
+struct KeyedList {
+  const char* key;
+  std::vector<double>& list;
+};
+
+void read_lists(const TomlTable& table, int joints, std::initializer_list<KeyedList> lists) {
+  for (const auto& [key, list] : lists)
+    if (table.has(key)) list = table.each(key, joints);
+}
+
+WorkPieceSpec read_work_piece(const TomlTable& table, WorkPieceSpec piece) {
+  piece.mass = table.number("mass", piece.mass);
+  read_span(table, "carried_s", piece.carried_min_s, piece.carried_max_s);
+  read_span(table, "empty_s", piece.empty_min_s, piece.empty_max_s);
+  return piece;
+}
+
+RecordingSpec read_recording(const TomlTable& table, int joints, RecordingSpec recording) {
+  recording.jitter_s = table.number("jitter_s", recording.jitter_s);
+  recording.stamp_resolution_s = table.number("stamp_resolution_s", recording.stamp_resolution_s);
+  recording.lost = table.number("lost", recording.lost);
+  recording.torque_late_rows = small_integer(table, "torque_late_rows", recording.torque_late_rows);
+  recording.velocity_filter_s = table.number("velocity_filter_s", recording.velocity_filter_s);
+  read_lists(table, joints, {{"torque_resolution", recording.torque_resolution}});
+  if (table.has("velocity"))
+    recording.velocity = table.choice("velocity", {"measured", "difference"}) == "difference"
+                             ? RecordedVelocity::difference
+                             : RecordedVelocity::measured;
+  return recording;
+}
+
+MotionSpec read_motion(const TomlTable& table, int joints, MotionSpec motion) {
+  if (table.has("profile")) {
+    const std::string profile = table.choice("profile", {"quintic", "trapezoidal", "step", "fourier"});
+    motion.profile = profile == "quintic"       ? MotionProfile::quintic
+                     : profile == "trapezoidal" ? MotionProfile::trapezoidal
+                     : profile == "step"        ? MotionProfile::step
+                                                : MotionProfile::fourier;
+  }
+  read_lists(table, joints, {{"low", motion.low}, {"high", motion.high}});
+  read_span(table, "move_s", motion.move_min_s, motion.move_max_s);
+  read_span(table, "dwell_s", motion.dwell_min_s, motion.dwell_max_s);
+  motion.blend = table.number("blend", motion.blend);
+  motion.harmonics = small_integer(table, "harmonics", motion.harmonics);
+  motion.fourier_period_s = table.number("fourier_period_s", motion.fourier_period_s);
+  if (table.has("points")) motion.points = table.number_rows("points", joints);
+  return motion;
+}
+
+/// `seed` draws the errors for `mass_error_std`.
+ControllerSpec read_controller(const TomlTable& table, int joints, std::uint64_t seed,
+                               ControllerSpec controller) {
+  if (table.has("kind"))
+    controller.kind = table.choice("kind", {"computed_torque", "pd_gravity"}) == "pd_gravity"
+                          ? ControllerKind::pd_gravity
+                          : ControllerKind::computed_torque;
+  controller.bandwidth_rad_s = table.number("bandwidth_rad_s", controller.bandwidth_rad_s);
+  controller.damping = table.number("damping", controller.damping);
+  controller.friction_compensation = table.flag("friction_compensation", controller.friction_compensation);
+  read_lists(table, joints, {{"mass_error", controller.mass_error}});
+  if (!table.has("mass_error_std")) return controller;
+  if (table.has("mass_error"))
+    table.fail("mass_error_std", "is given together with mass_error; give only one of them");
+  const double std = table.number("mass_error_std");
+  Random random = Random::stream(seed, 3);
+  controller.mass_error.resize(joints);
+  for (double& error : controller.mass_error) error = std * random.normal();
+  return controller;
+}
+
+/// Reads [noise], [drives], [limits], [gears], [stick_slip], [warm_up], [work_piece], [recording] of `file`.
+SimulationSpec read_machine(const TomlTable& file, int joints, SimulationSpec spec) {
+  auto& [gears, stick_slip, warm_up] = spec.machine;
+  DriveSpec& drives = spec.drives;
+  read_lists(file.table("noise"), joints,
+             {{"q", spec.noise.q}, {"dq", spec.noise.dq}, {"q_resolution", spec.noise.q_resolution}});
+  read_lists(file.table("drives"), joints,
+             {{"gain", drives.gain},
+              {"offset", drives.offset},
+              {"roughness", drives.roughness},
+              {"roughness_memory_s", drives.roughness_memory_s}});
+  read_lists(file.table("limits"), joints,
+             {{"torque", spec.torque_limit},
+              {"stop_low", spec.stops.low},
+              {"stop_high", spec.stops.high},
+              {"overspeed", spec.overspeed}});
+  read_lists(file.table("gears"), joints,
+             {{"stiffness", gears.stiffness},
+              {"damping", gears.damping},
+              {"play", gears.play},
+              {"motor_inertia", gears.motor_inertia}});
+  read_lists(file.table("stick_slip"), joints, {{"share", stick_slip.share}, {"speed", stick_slip.speed}});
+  read_lists(file.table("warm_up"), joints, {{"share", warm_up.share}, {"time_s", warm_up.time_s}});
+  spec.work_piece = read_work_piece(file.table("work_piece"), spec.work_piece);
+  spec.recording = read_recording(file.table("recording"), joints, std::move(spec.recording));
+  return spec;
+}
 
 SimulatedFault read_fault(const TomlTable& table, const Robot& robot) {
   SimulatedFault fault;
@@ -151,6 +270,29 @@ SimulationFile load_simulation_file(const std::string& path, const SimulationFil
   const std::string text = read_file(path);
   refuse_open_number(text, path);
   return simulation_from_toml(text, path, std::filesystem::path(path).parent_path().string(), options);
+}
+
+std::string labels_header() {
+  return "file,fault,joint,onset_s,end_s,robot,size,size_unit,viscous,seed,sample_period_s,control_period_s,"
+         "duration_s,end_reason\n";
+}
+
+std::string label_lines(const SimulationFile& file, const RunSpec& spec, const SimulatedRun& run) {
+  const std::string start = csv_cell(spec.name + "." + file.format);
+  const std::string end = fmt::format("{},{},{},{},{}\n", spec.seed, spec.simulation.sample_period_s,
+                                      spec.simulation.control_period_s,
+                                      run.log.rows() ? run.log.time.back() : 0.0, to_string(run.end));
+  const std::string robot = csv_cell(file.robot.name);
+  if (run.truth.empty()) return fmt::format("{},none,0,,,{},,,,{}", start, robot, end);
+  std::string lines;
+  for (const SimulatedFault& fault : run.truth) {
+    const std::string unit = size_unit(file.robot, fault);
+    lines +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{}", start, to_string(fault.kind), fault.joint, fault.onset_s,
+                    fault.end_s, robot, unit.empty() ? "" : fmt::format("{}", fault.size), unit,
+                    describe(fault.kind).size_count > 1 ? fmt::format("{}", fault.viscous) : "", end);
+  }
+  return lines;
 }
 
 }  // namespace faultline

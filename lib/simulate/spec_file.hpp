@@ -37,4 +37,9 @@ SimulationFile load_simulation_file(const std::string& path, const SimulationFil
 SimulationFile simulation_from_toml(const std::string& text, const std::string& where,
                                     const std::string& folder, const SimulationFileOptions& options = {});
 
+/// Returns the first line of labels.csv, with its newline.
+std::string labels_header();
+/// Returns the lines of labels.csv for one run: one for each fault, or one with fault "none".
+std::string label_lines(const SimulationFile& file, const RunSpec& spec, const SimulatedRun& run);
+
 }  // namespace faultline

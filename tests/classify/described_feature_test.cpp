@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/classify/described_feature.hpp"
-
 #include <gtest/gtest.h>
 
+#include "lib/classify/episode_features.hpp"
 #include "tests/diagnose/hand_made_episode.hpp"
 
 namespace faultline {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/neural/gram.hpp"
-
 #include <gtest/gtest.h>
+
+#include "lib/neural/kernels.hpp"
 
 namespace faultline {
 namespace {

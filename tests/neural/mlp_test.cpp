@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
-#include "lib/neural/scaler.hpp"
+#include "lib/neural/patterns.hpp"
 
 namespace faultline {
 namespace {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "lib/core/error.hpp"
-#include "lib/simulate/run_labels.hpp"
 
 namespace faultline {
 namespace {

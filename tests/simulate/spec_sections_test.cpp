@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/simulate/spec_sections.hpp"
-
 #include <gtest/gtest.h>
 
 #include "lib/core/atomic_file.hpp"

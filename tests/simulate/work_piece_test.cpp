@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
-#include "lib/simulate/run_labels.hpp"
+#include "lib/simulate/spec_file.hpp"
 #include "tests/simulate/short_runs.hpp"
 
 namespace faultline {

@@ -3,8 +3,8 @@
 
 #include "lib/model/model.hpp"
 #include "lib/neural/mlp.hpp"
+#include "lib/neural/patterns.hpp"
 #include "lib/neural/rbfn.hpp"
-#include "lib/neural/scaler.hpp"
 #include "tests/fuzz/readers/feeding.hpp"
 #include "tests/fuzz/readers/readers.hpp"
 
