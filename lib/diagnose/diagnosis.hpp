@@ -14,7 +14,7 @@
 #include "lib/explain/evidence_course.hpp"
 #include "lib/fault/opinion.hpp"
 #include "lib/log/log_run.hpp"
-#include "lib/residual/residual_summary.hpp"
+#include "lib/residual/residuals.hpp"
 
 /// The one result of diagnosing a log; every report is a rendering of it. Schema "faultline/diagnosis/1".
 namespace faultline {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/explain/decide_log.hpp"
-#include "lib/residual/residual_summary.hpp"
+#include "lib/residual/residuals.hpp"
 
 namespace faultline {
 

@@ -16,7 +16,7 @@
 #include "lib/model/model_ranges.hpp"
 #include "lib/model/model_text.hpp"
 #include "lib/model/twin/twin_json.hpp"
-#include "lib/residual/relation/relation_json.hpp"
+#include "lib/residual/relation/signal_relation.hpp"
 #include "lib/robot/payload.hpp"
 #include "lib/robot/robot_file.hpp"
 

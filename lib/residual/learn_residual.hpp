@@ -10,6 +10,7 @@
 #include "lib/log/log_source.hpp"
 #include "lib/neural/training.hpp"
 #include "lib/residual/residual_generator.hpp"
+#include "lib/residual/transitions.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {
@@ -32,11 +33,27 @@ struct ResidualOptions {
   std::uint64_t seed = 1;
 };
 
+/// A generator with its network, and how the training went.
+struct FittedGenerator {
+  ResidualGenerator generator;
+  TrainingSummary training;  ///< not run for kind physics
+};
+
+/// Trains the network of `untrained`, whose kind, target, shape and chain are set, on these transitions of
+/// healthy motion, all of them finite; scalers take the range of `training`. `validation` may be empty. Kind
+/// physics has nothing to train.
+FittedGenerator fit_residual_generator(ResidualGenerator untrained, const Transitions& training,
+                                       const Transitions& validation, const ResidualOptions& options,
+                                       const Progress& progress = {});
+
+/// Returns the residuals of the generator on transitions of healthy motion that were not trained on. Its own
+/// `healthy` may be empty.
+HealthyResiduals healthy_residuals(ResidualGenerator generator, const Transitions& check);
+
 struct LearnedResidual {
   ResidualGenerator generator;
   TrainingSummary training;  ///< not run for kind physics
   int training_patterns = 0;
-  int validation_patterns = 0;
   /// Mean squared error over q and dq after a step, each in units of half its range, on patterns that were
   /// not trained on: of the generator, and of the prediction that nothing changes.
   double normalised_mse = 0.0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/residual/residuals.hpp"
 
+#include <cmath>
+
 #include "lib/robot/fast_dynamics.hpp"
 
 namespace faultline {
@@ -54,6 +56,45 @@ Residuals residuals_of(const ResidualGenerator& generator, const Transitions& tr
 Residuals compute_residuals(const ResidualGenerator& generator, const Log& segment, ResidualState& state) {
   if (generator.joints() == 0 || segment.tau.empty()) return {};
   return residuals_of(generator, log_transitions(generator, segment, state));
+}
+
+void ResidualSummary::add(const Residuals& residuals) {
+  sums_.resize(residuals.joints());
+  for (int i = 0; i < residuals.count(); ++i) {
+    const double time = residuals.time[i];
+    if (time < from_s_ || time > to_s_) continue;
+    for (int j = 0; j < residuals.joints(); ++j) {
+      const double velocity = residuals.velocity(j, i), position = residuals.position(j, i);
+      if (!std::isfinite(velocity) || !std::isfinite(position)) continue;
+      Sums& sums = sums_[j];
+      if (++sums.count == 1 || std::fabs(velocity) > sums.velocity_peak) {
+        sums.velocity_peak = std::fabs(velocity);
+        sums.velocity_peak_s = time;
+      }
+      sums.velocity2 += velocity * velocity;
+      sums.position2 += position * position;
+      if (std::isfinite(residuals.ratio(j, i))) sums.ratio += residuals.ratio(j, i);
+    }
+  }
+}
+
+std::vector<JointResidual> ResidualSummary::joints() const {
+  std::vector<JointResidual> out;
+  for (const Sums& sums : sums_) {
+    JointResidual joint;
+    joint.joint = static_cast<int>(out.size()) + 1;
+    joint.count = sums.count;
+    if (sums.count > 0) {
+      const double count = static_cast<double>(sums.count);
+      joint.velocity_rms = std::sqrt(sums.velocity2 / count);
+      joint.velocity_peak = sums.velocity_peak;
+      joint.velocity_peak_s = sums.velocity_peak_s;
+      joint.position_rms = std::sqrt(sums.position2 / count);
+      joint.mean_ratio = sums.ratio / count;
+    }
+    out.push_back(joint);
+  }
+  return out;
 }
 
 }  // namespace faultline

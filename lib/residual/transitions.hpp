@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lib/core/random.hpp"
 #include "lib/log/log.hpp"
 
 namespace faultline {
@@ -55,5 +56,23 @@ Transitions collect_transitions(const Log& segment, const TransitionShape& shape
 
 /// Returns the columns of `first`, then those of `second`.
 Transitions joined(const Transitions& first, const Transitions& second);
+
+/// At most `capacity` transitions drawn at random, each with the same chance, from a stream of any length
+/// (reservoir sampling, Vitter 1985).
+class TransitionReservoir {
+ public:
+  TransitionReservoir(int capacity, std::uint64_t seed) : capacity_(capacity), random_(seed) {}
+
+  void offer(const Transitions& transitions, int column);
+  Transitions drawn() const;
+  std::int64_t offered() const { return offered_; }
+
+ private:
+  int capacity_;
+  Random random_;
+  std::int64_t offered_ = 0;
+  int kept_ = 0;
+  Transitions pool_;
+};
 
 }  // namespace faultline

@@ -8,7 +8,6 @@
 #include "lib/core/error.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/residual/learn_residual.hpp"
-#include "lib/residual/residual_summary.hpp"
 #include "lib/residual/residuals.hpp"
 #include "tests/support/bench_motion.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/reproduce/protocol/motion_generator.hpp"
-#include "lib/residual/fit_residual.hpp"
+#include "lib/residual/learn_residual.hpp"
 
 namespace faultline {
 namespace {

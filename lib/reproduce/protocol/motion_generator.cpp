@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "lib/residual/fit_residual.hpp"
+#include "lib/residual/learn_residual.hpp"
 
 namespace faultline {
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lib/log/log_channels.hpp"
-#include "lib/residual/relation/learn_tracking.hpp"
 #include "lib/residual/relation/relation_fit.hpp"
 
 namespace faultline {

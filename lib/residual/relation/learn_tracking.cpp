@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/residual/relation/learn_tracking.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "lib/core/golden_section.hpp"
 #include "lib/log/log_channels.hpp"
+#include "lib/residual/relation/relation_fit.hpp"
 
 namespace faultline {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lib/residual/relation/relation_residual.hpp"
-#include "lib/residual/relation/windowed_means.hpp"
 
 namespace faultline {
 

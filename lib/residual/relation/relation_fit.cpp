@@ -7,9 +7,7 @@
 #include "lib/core/distributions.hpp"
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/log/log_channels.hpp"
-#include "lib/residual/relation/lag_line.hpp"
 #include "lib/residual/relation/relation_residual.hpp"
-#include "lib/residual/relation/windowed_means.hpp"
 
 namespace faultline {
 namespace {

@@ -9,9 +9,73 @@
 namespace faultline {
 namespace {
 
+constexpr double kGap = 1.75;    // periods: in a longer step between two rows, a row is missing
+constexpr int kMostBridged = 5;  // missing rows in succession that are interpolated, at most
+
 constexpr double kSettle_s = 0.15;  // not judged after an input outside the learned range, such as a jump
 
+constexpr double kPause_s = 0.2;
+
 }  // namespace
+
+LagLine::LagLine(const SignalRelation& relation)
+    : inputs_(relation.inputs),
+      target_(relation.target),
+      bridges_(relation.kind == RelationKind::tracking),
+      joint_(relation.joint),
+      lags_(relation.lags),
+      stride_(relation.stride),
+      period_s_(relation.period_s),
+      rate_limit_(relation.rate_limit),
+      before_(inputs_.size() * (lags_ * stride_ + 1)),
+      terms_(relation.weights_needed(), 1.0) {}
+
+/// The input as a target with this rate limit follows it, from the present value of the target on.
+double LagLine::followed(double input, const Log& log, int row, double dt) {
+  if (rate_limit_ <= 0.0) return input;
+  const double target = signals_of(log, target_)[joint_][row];
+  if (rows_ == 0 || !std::isfinite(followed_)) followed_ = std::isfinite(target) ? target : input;
+  const double most = rate_limit_ * std::min(dt, (kMostBridged + 1) * period_s_);
+  followed_ += std::clamp(input - followed_, -most, most);
+  return followed_;
+}
+
+void LagLine::push(std::size_t input, double value) {
+  const std::size_t reach = static_cast<std::size_t>(lags_) * stride_;
+  double* line = &before_[input * (reach + 1)];
+  std::copy_backward(line, line + reach, line + reach + 1);
+  line[0] = value;
+}
+
+bool LagLine::take(const Log& log, int row) {
+  const double dt = log.time[row] - last_s_;
+  last_s_ = log.time[row];
+  const bool in_step = dt > 0.0 && dt < kGap * period_s_;
+  const double lost = in_step || !bridges_ ? 0.0 : std::round(dt / period_s_) - 1.0;
+  if (!in_step && !(lost >= 1.0 && lost <= kMostBridged)) rows_ = 0;
+  const int bridged = rows_ == 0 ? 0 : static_cast<int>(lost);
+  const std::size_t reach = static_cast<std::size_t>(lags_) * stride_, kept = reach + 1;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    double value = signals_of(log, inputs_[i])[joint_][row];
+    if (!std::isfinite(value)) {
+      rows_ = 0;
+      return false;
+    }
+    if (i == 0) value = followed(value, log, row, dt);
+    const double before = before_[i * kept];
+    for (int b = 1; b <= bridged; ++b) push(i, before + (value - before) * b / (bridged + 1));
+    push(i, value);
+  }
+  rows_ += bridged;
+  if (++rows_ <= static_cast<int>(reach)) return false;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const double* line = &before_[i * kept];
+    double* terms = &terms_[i * (lags_ + 1)];
+    terms[0] = line[0];
+    for (int l = 0; l < lags_; ++l) terms[l + 1] = line[l * stride_] - line[(l + 1) * stride_];
+  }
+  return true;
+}
 
 bool RelationResidual::terms_are_known() const {
   // The position of a joint does not change how it follows its reference.
@@ -57,6 +121,45 @@ double RelationResidual::residual(double target, double predicted) const {
   const bool below = target <= relation_.low && predicted <= relation_.low;
   if (above || below) return 0.0;
   return target - std::clamp(target, std::min(predicted, reachable), std::max(predicted, reachable));
+}
+
+WindowedMeans::WindowedMeans(std::vector<int> rows)
+    : rows_(std::move(rows)), ring_(rows_.back()), sum_(rows_.size()) {}
+
+void WindowedMeans::add(double value, double time_s) {
+  if (time_s - last_s_ > kPause_s) restart();
+  last_s_ = time_s;
+  for (std::size_t w = 0; w < rows_.size(); ++w) {
+    const std::size_t size = ring_.size();
+    sum_[w] += value;
+    if (count_ >= rows_[w]) sum_[w] -= ring_[(next_ + size - rows_[w]) % size];
+  }
+  ring_[next_] = value;
+  next_ = (next_ + 1) % ring_.size();
+  ++count_;
+  if (next_ != 0) return;  // once a round the sums are recomputed, so that rounding errors do not add up
+  for (std::size_t w = 0; w < rows_.size(); ++w) {
+    sum_[w] = 0.0;
+    for (int k = 1; k <= std::min<long long>(rows_[w], count_); ++k) sum_[w] += ring_[ring_.size() - k];
+  }
+}
+
+void WindowedMeans::restart() {
+  std::fill(sum_.begin(), sum_.end(), 0.0);
+  next_ = 0;
+  count_ = 0;
+}
+
+int WindowedMeans::full() const {
+  return static_cast<int>(
+      std::count_if(rows_.begin(), rows_.end(), [&](int rows) { return count_ >= rows; }));
+}
+
+std::vector<int> window_rows(std::span<const double> windows_s, double period_s) {
+  std::vector<int> rows;
+  for (const double window_s : windows_s)
+    rows.push_back(std::max(1, static_cast<int>(std::lround(window_s / period_s))));
+  return rows;
 }
 
 }  // namespace faultline

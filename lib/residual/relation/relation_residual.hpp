@@ -3,10 +3,39 @@
 
 #include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
-#include "lib/residual/relation/lag_line.hpp"
+#include "lib/residual/relation/signal_relation.hpp"
 
 namespace faultline {
+
+/// The latest rows of a relation's inputs, as the terms that its weights multiply.
+class LagLine {
+ public:
+  explicit LagLine(const SignalRelation& relation);
+
+  /// Takes row `row`. Returns false if too few rows precede it without a gap, or an input is missing. For
+  /// tracking, whose inputs are smooth, a few lost rows are interpolated.
+  bool take(const Log& log, int row);
+  /// Valid after take() returned true; as many as SignalRelation::weights_needed().
+  const std::vector<double>& terms() const { return terms_; }
+
+ private:
+  void push(std::size_t input, double value);
+  double followed(double input, const Log& log, int row, double dt);
+
+  std::vector<Quantity> inputs_;
+  Quantity target_;
+  bool bridges_;
+  int joint_, lags_, stride_;
+  double period_s_, rate_limit_;
+  double followed_ = std::numeric_limits<double>::quiet_NaN();  ///< the first input under rate_limit_
+  std::vector<double> before_;                                  ///< by input, the latest row first
+  std::vector<double> terms_;
+  int rows_ = 0;  ///< number of rows since the last gap
+  double last_s_ = -std::numeric_limits<double>::infinity();
+};
 
 /// A row of a relation's residual.
 struct RelationSample {
@@ -43,5 +72,34 @@ class RelationResidual {
   double beyond_s_ = 0.0;
   double unknown_s_ = -std::numeric_limits<double>::infinity();  ///< last row outside the learned range
 };
+
+/// Lengths over which residuals are averaged, s: shorter ones show each transient of a current loop.
+inline constexpr double kRelationWindows_s[] = {0.1, 0.2, 0.4, 0.8, 1.6};
+
+/// Means of a series of samples over its latest windows.
+class WindowedMeans {
+ public:
+  /// `rows`: length of each window, at least 1, the shortest first.
+  explicit WindowedMeans(std::vector<int> rows);
+
+  /// Adds a sample. A pause of more than a fifth of a second interrupts the series: all windows begin anew.
+  void add(double value, double time_s);
+  void restart();
+  /// Number of windows that are full; these are the shortest ones.
+  int full() const;
+  double mean(int window) const { return sum_[window] / rows_[window]; }
+  int rows(int window) const { return rows_[window]; }
+
+ private:
+  std::vector<int> rows_;
+  std::vector<double> ring_;  ///< the latest values of the longest window
+  std::vector<double> sum_;   ///< by window
+  std::size_t next_ = 0;      ///< index of the next value in ring_
+  long long count_ = 0;
+  double last_s_ = -std::numeric_limits<double>::infinity();
+};
+
+/// Returns the rows of each window at that period, at least one each.
+std::vector<int> window_rows(std::span<const double> windows_s, double period_s);
 
 }  // namespace faultline

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 /// Second residuals: relations between signals of a log that do not depend on the mechanics of the robot. The
 /// measured torque follows the commanded one, the commanded torque follows the inputs of the controller, and
 /// the motion follows its reference.
+
 namespace faultline {
 
 enum class RelationKind {
@@ -74,7 +76,12 @@ std::optional<Quantity> measured_torque(const Log& log, bool torque_is_commanded
 /// Whether the log has torques of any meaning.
 bool has_torque(const Log& log);
 
-/// Whether the log has the channels that the relation needs.
 bool has_signals(const Log& log, const SignalRelation& relation);
+
+nlohmann::json relations_to_json(const std::vector<SignalRelation>& relations);
+/// Reads relations. Throws Error(input), which names `where`, for those that do not fit together or are not
+/// of a robot with `joints` joints, and what nlohmann::json throws.
+std::vector<SignalRelation> relations_from_json(const nlohmann::json& list, int joints,
+                                                const std::string& where);
 
 }  // namespace faultline

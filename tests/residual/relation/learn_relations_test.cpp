@@ -7,7 +7,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/log/memory_source.hpp"
-#include "lib/residual/relation/relation_json.hpp"
+#include "lib/residual/relation/signal_relation.hpp"
 #include "tests/residual/relation/driven_joint.hpp"
 
 namespace faultline {
