@@ -16,8 +16,7 @@
 #include "apps/work/robot_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/text.hpp"
-#include "lib/model/twin/twin_json.hpp"
-#include "lib/model/twin/twin_text.hpp"
+#include "lib/model/twin/twin_options.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {

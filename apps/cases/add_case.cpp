@@ -5,10 +5,10 @@
 
 #include "apps/cases/case_actions.hpp"
 #include "apps/work/file_use.hpp"
+#include "lib/cases/case.hpp"
+#include "lib/cases/case_base.hpp"
 #include "lib/cases/case_file.hpp"
-#include "lib/cases/case_origin.hpp"
 #include "lib/cases/possible_labels.hpp"
-#include "lib/cases/same_event.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/fault/fault_words.hpp"

@@ -14,10 +14,9 @@
 #include <utility>
 
 #include "lib/cases/carry_over.hpp"
+#include "lib/cases/case.hpp"
+#include "lib/cases/case_base.hpp"
 #include "lib/cases/case_file.hpp"
-#include "lib/cases/case_hash.hpp"
-#include "lib/cases/case_json.hpp"
-#include "lib/cases/case_origin.hpp"
 #include "lib/cases/possible_labels.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/number_text.hpp"

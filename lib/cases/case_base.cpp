@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "lib/cases/case_hash.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/plain_name.hpp"
 #include "lib/core/utf8.hpp"
@@ -34,10 +33,6 @@ void check_features(const std::vector<Feature>& features) {
 bool is_sane(double x) { return std::isnan(x) || std::abs(x) <= kLargestNumber; }
 
 bool is_share(double x) { return x >= 0.0 && x <= 1.0; }
-
-bool is_known(const Case& c) {
-  return !(c.outcome == CaseOutcome::rejected && c.label.kind == FaultKind::unknown);
-}
 
 void mend_texts(Case& c) {
   for (std::string* text : {&c.what_was_done, &c.origin, &c.log_sha256, &c.features_by, &c.log_name, &c.robot,
@@ -173,10 +168,8 @@ void CaseBase::belong_to(const std::string& model_identity) {
 
 void CaseBase::learn() {
   std::vector<Case> known;
-  std::copy_if(cases_.begin(), cases_.end(), std::back_inserter(known), is_known);
+  std::copy_if(cases_.begin(), cases_.end(), std::back_inserter(known), fault_is_known);
   metric_ = learn_metric(metric_.features, known);
 }
-
-std::string CaseBase::sha256() const { return content_hash(*this); }
 
 }  // namespace faultline

@@ -10,7 +10,6 @@
 
 namespace faultline {
 
-/// The robot of a base.
 struct CaseRobot {
   std::string name{};
   std::string axes{};  ///< base to tip, R turns and P slides, such as "RRP"
@@ -91,5 +90,15 @@ class CaseBase {
   CaseRobot robot_;
   std::string model_identity_;
 };
+
+/// SHA-256 of a case without its id.
+std::string content_hash(const Case& c);
+
+/// Whether both cases are of one event: same log (SHA-256), onsets closer than those of two faults of one
+/// robot, and same decision or same label. False if a log is not known.
+bool is_same_event(const Case& a, const Case& b);
+
+/// Returns the case of the base of the same event; null if there is none.
+const Case* find_same_event(const CaseBase& base, const Case& c);
 
 }  // namespace faultline

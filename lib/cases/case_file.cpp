@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "lib/cases/case_schema.hpp"
-#include "lib/cases/settled_copy.hpp"
 #include "lib/cases/sqlite.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
@@ -149,7 +148,6 @@ std::vector<Case> cases_in_tables(SqliteFile& file) {
   return cases;
 }
 
-/// Fills empty tables.
 void fill_tables(SqliteFile& file, const CaseBase& base) {
   write_metric(file, base.metric());
   SqliteStatement row(file, "INSERT INTO fault_case VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "lib/cases/case_base.hpp"
@@ -34,5 +35,14 @@ void replace_case_base(const std::string& path, const std::function<CaseBase(con
 /// Reads the base, applies `change` and stores the result in one transaction: completely or, if `change`
 /// throws or the disk is full, not at all. Other programs may read meanwhile; a second writer waits.
 void change_case_base(const std::string& path, const std::function<void(CaseBase&)>& change);
+
+/// Returns one case with its features by name; NaN is null.
+nlohmann::ordered_json to_json(const CaseBase& base, const Case& c);
+
+/// Returns the whole base as JSON text, schema "faultline/cases/1", without loss: from_cases_json() returns a
+/// base with the same sha256.
+std::string to_cases_json(const CaseBase& base);
+/// Throws Error(input) with `where` and the position in the text.
+CaseBase from_cases_json(const std::string& text, const std::string& where);
 
 }  // namespace faultline

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/cases/case_json.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "lib/cases/case_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/plain_name.hpp"
 #include "lib/core/json/json_fields.hpp"

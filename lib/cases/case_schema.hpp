@@ -11,7 +11,6 @@ namespace faultline {
 /// Version of the tables of a case base file (docs/model-and-case-base.md).
 inline constexpr std::int64_t kCaseSchemaVersion = 3;
 
-/// Creates the tables, empty.
 void create_case_tables(SqliteFile& file);
 void drop_case_tables(SqliteFile& file);
 

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 // CaseBase::merge(): adds cases of another base of the same kind of robot.
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "lib/cases/case_base.hpp"
-#include "lib/cases/case_hash.hpp"
-#include "lib/cases/case_origin.hpp"
 #include "lib/cases/possible_labels.hpp"
-#include "lib/cases/same_event.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr double kOneOnset_s = 0.1;  // another model may estimate another onset of the same fault
+
+bool same_time(double a_s, double b_s) {
+  return std::isnan(a_s) || std::isnan(b_s) ? std::isnan(a_s) == std::isnan(b_s)
+                                            : std::abs(a_s - b_s) <= kOneOnset_s;
+}
 
 void check_kind(const CaseBase& base, const CaseBase& other) {
   const std::string &axes = base.robot().axes, &others = other.robot().axes;
@@ -49,6 +55,18 @@ Case with_word_of(const Case& c, Case there) {
 }
 
 }  // namespace
+
+bool is_same_event(const Case& a, const Case& b) {
+  return !a.log_sha256.empty() && a.log_sha256 == b.log_sha256 && same_time(a.onset_s, b.onset_s) &&
+         (a.decision == b.decision || a.label == b.label);
+}
+
+const Case* find_same_event(const CaseBase& base, const Case& c) {
+  const auto& cases = base.cases();
+  const auto found =
+      std::find_if(cases.begin(), cases.end(), [&](const Case& other) { return is_same_event(other, c); });
+  return found == cases.end() ? nullptr : &*found;
+}
 
 MergedCases CaseBase::merge(const CaseBase& other) {
   check_kind(*this, other);

@@ -7,7 +7,6 @@
 
 namespace faultline {
 
-/// Returns the number of joints of the base's robot.
 int joints_of(const CaseBase& base);
 
 /// Throws Error(usage) with `where` if a robot with `joints` joints does not have the label's joint.

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/cases/settled_copy.hpp"
-
 #include <sys/stat.h>
 
 #include <array>

@@ -6,10 +6,6 @@
 namespace faultline {
 namespace {
 
-bool fault_is_known(const Case& c) {
-  return !(c.outcome == CaseOutcome::rejected && c.label.kind == FaultKind::unknown);
-}
-
 void vote(std::vector<LabelShare>& votes, const FaultLabel& label, double weight) {
   const auto known =
       std::find_if(votes.begin(), votes.end(), [&](const auto& v) { return v.label == label; });
@@ -38,6 +34,21 @@ void normalise(std::vector<LabelShare>& votes) {
 }
 
 }  // namespace
+
+std::vector<Neighbour> retrieve(const CaseBase& base, std::span<const double> features, int count,
+                                double least_similarity) {
+  std::vector<Neighbour> found;
+  for (const Case& c : base.cases()) {
+    const double s = similarity(base.metric(), features, c.episode.features);
+    if (s > 0.0 && s >= least_similarity) found.push_back({&c, s});
+  }
+  const auto kept = found.begin() + std::clamp<std::ptrdiff_t>(count, 0, std::ssize(found));
+  std::partial_sort(found.begin(), kept, found.end(), [](const Neighbour& a, const Neighbour& b) {
+    return a.similarity != b.similarity ? a.similarity > b.similarity : a.found->id < b.found->id;
+  });
+  found.erase(kept, found.end());
+  return found;
+}
 
 Votes votes_on(const Episode& episode, const CaseBase& base, const VoteOptions& options) {
   Votes votes;

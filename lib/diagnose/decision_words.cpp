@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "lib/cases/case_origin.hpp"
+#include "lib/cases/case.hpp"
 #include "lib/fault/label_text.hpp"
 
 namespace faultline {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/cases/case_origin.hpp"
+#include "lib/cases/case.hpp"
 #include "lib/core/issue.hpp"
 #include "lib/diagnose/condition.hpp"
 #include "lib/diagnose/decided_by.hpp"

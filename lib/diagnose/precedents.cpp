@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include "lib/cases/case_origin.hpp"
+#include "lib/cases/case.hpp"
 #include "lib/cases/compare_cases.hpp"
 #include "lib/classify/episode_features.hpp"
 

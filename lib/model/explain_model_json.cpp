@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/model/explain_model_json.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "lib/balance/regressor.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/json/json_fields.hpp"
+#include "lib/model/model_text.hpp"
 
 namespace faultline {
 namespace {

@@ -16,7 +16,6 @@ CaseRobot case_robot_of(const Model& model);
 /// the case base the robot.
 void bind_cases(Model& model, CaseBase& cases);
 
-/// A model with its case base.
 struct ModelFiles {
   Model model;
   CaseBase cases;

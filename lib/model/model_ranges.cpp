@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/model/model_ranges.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -9,6 +7,7 @@
 #include <string_view>
 
 #include "lib/core/error.hpp"
+#include "lib/model/model_text.hpp"
 
 namespace faultline {
 namespace {

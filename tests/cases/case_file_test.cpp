@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "lib/cases/case_json.hpp"
 #include "lib/cases/sqlite.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/cases/case_origin.hpp"
-
 #include <gtest/gtest.h>
 
+#include "lib/cases/case.hpp"
 #include "lib/core/error.hpp"
 #include "tests/cases/example_base.hpp"
 

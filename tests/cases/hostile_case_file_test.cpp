@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "lib/cases/case_file.hpp"
-#include "lib/cases/case_json.hpp"
 #include "lib/cases/case_schema.hpp"
 #include "lib/cases/sqlite.hpp"
 #include "lib/core/atomic_file.hpp"

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "lib/cases/same_event.hpp"
+#include "lib/cases/case_base.hpp"
 #include "lib/core/error.hpp"
 #include "tests/cases/example_base.hpp"
 

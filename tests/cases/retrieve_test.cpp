@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/cases/retrieve.hpp"
-
 #include <gtest/gtest.h>
 
+#include "lib/cases/votes.hpp"
 #include "tests/cases/example_base.hpp"
 
 namespace faultline {

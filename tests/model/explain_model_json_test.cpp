@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/model/explain_model_json.hpp"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
+#include "lib/model/model_text.hpp"
 #include "tests/explain/explained_scara.hpp"
 
 namespace faultline {

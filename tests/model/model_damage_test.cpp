@@ -8,7 +8,6 @@
 #include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
 #include "lib/model/model_files.hpp"
-#include "lib/model/model_ranges.hpp"
 #include "lib/model/model_text.hpp"
 #include "tests/learn/small_robot.hpp"
 #include "tests/support/resealed_model.hpp"

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "lib/fault/fault_catalogue.hpp"
 
@@ -20,7 +22,7 @@ std::array<TwinFault, kFaultKinds> catalogued_twin_faults();
 
 /// Distribution of the simulated runs: training data of the networks, content of the case base and data of
 /// the validation of a model. Each comment names the reference of a share; ranges are uniform if not stated
-/// otherwise. twin_fields.hpp has the same meanings as words.
+/// otherwise. twin_text() has the same meanings as words.
 struct TwinOptions {
   // The run: long enough for some moves before and after any onset.
   double least_length_s = 5.0;
@@ -57,5 +59,14 @@ struct TwinOptions {
   /// Throws Error(usage) naming the field, its value and its bound if a field is out of bounds.
   void check() const;
 };
+
+/// Returns the distribution of the simulated runs as a table for people.
+std::string twin_text(const TwinOptions& options);
+
+/// Returns every number and, under "faults", the ranges of each kind that has a size.
+nlohmann::ordered_json twin_to_json(const TwinOptions& options);
+/// Throws Error(input) if something is missing or no number; `where` names the file. Kinds that are not
+/// listed keep the catalogue's ranges.
+TwinOptions twin_from_json(const nlohmann::ordered_json& json, const std::string& where);
 
 }  // namespace faultline

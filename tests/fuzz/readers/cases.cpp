@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "lib/cases/case_file.hpp"
-#include "lib/cases/case_json.hpp"
 #include "tests/fuzz/readers/feeding.hpp"
 #include "tests/fuzz/readers/readers.hpp"
 

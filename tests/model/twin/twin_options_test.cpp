@@ -8,8 +8,6 @@
 
 #include "lib/core/error.hpp"
 #include "lib/learn/twin/twin_draw.hpp"
-#include "lib/model/twin/twin_json.hpp"
-#include "lib/model/twin/twin_text.hpp"
 
 namespace faultline {
 namespace {
