@@ -16,7 +16,7 @@
 #include "lib/diagnose/curves/required_torque.hpp"
 #include "lib/diagnose/monitor/model_rate.hpp"
 #include "lib/fault/label_text.hpp"
-#include "lib/report/json.hpp"
+#include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {

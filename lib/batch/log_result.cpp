@@ -8,8 +8,7 @@
 #include "lib/core/hash.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/report/html/html_report.hpp"
-#include "lib/report/html/report_details.hpp"
-#include "lib/report/json.hpp"
+#include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {

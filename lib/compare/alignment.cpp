@@ -8,8 +8,7 @@
 #include <limits>
 
 #include "lib/compare/motion_pair.hpp"
-#include "lib/compare/signal_value.hpp"
-#include "lib/compare/warp.hpp"
+#include "lib/compare/run_signals.hpp"
 
 namespace faultline {
 namespace {
@@ -29,7 +28,6 @@ constexpr std::size_t kRefined = 8;    // number of shifts to refine
 constexpr double kNearlyAsGood = 4.0;  // largest ratio to the least cost, before refinement
 constexpr double kAgreeing = 1e-4;     // squared distance of motions that agree, in variances of the motion
 
-/// A shift and its cost.
 struct ShiftCost {
   double shift = 0.0, cost = 0.0;
 };

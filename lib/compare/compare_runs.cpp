@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/compare/signal_value.hpp"
+#include "lib/compare/run_signals.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 

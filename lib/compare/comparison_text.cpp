@@ -24,11 +24,6 @@ const char* kind_text(const RunAlignment& alignment) {
   return alignment.kind == AlignmentKind::motion ? "shift" : "time";
 }
 
-bool turns_at(const std::vector<char>& turns, int joint) {
-  const auto place = static_cast<std::size_t>(joint - 1);
-  return place >= turns.size() || turns[place];
-}
-
 std::string when(const SignalDifference& signal) {
   if (!signal.judged) return "not judged";
   return std::isnan(signal.diverges_s) ? "-" : seconds_text(signal.diverges_s);
@@ -36,7 +31,7 @@ std::string when(const SignalDifference& signal) {
 
 std::string line_of(const SignalDifference& s, const std::vector<char>& turns) {
   return fmt::format("  {:<9}{:>5}  {:<6}{:>10}{:>11}{:>12}{:>11}{:>12}\n", s.quantity, s.joint,
-                     unit_of(s.quantity, turns_at(turns, s.joint)), value_text(s.rms), value_text(s.largest),
+                     unit_of(s, turns), value_text(s.rms), value_text(s.largest),
                      std::isnan(s.largest_s) ? "-" : seconds_text(s.largest_s), value_text(s.threshold),
                      when(s));
 }
@@ -44,7 +39,7 @@ std::string line_of(const SignalDifference& s, const std::vector<char>& turns) {
 Json signal_json(const SignalDifference& s, const std::vector<char>& turns) {
   return {{"quantity", s.quantity},
           {"joint", s.joint},
-          {"unit", unit_of(s.quantity, turns_at(turns, s.joint))},
+          {"unit", unit_of(s, turns)},
           {"rms", number_or_null(s.rms)},
           {"first_rms", number_or_null(s.first_rms)},
           {"second_rms", number_or_null(s.second_rms)},
@@ -63,7 +58,10 @@ Json run_json(const std::string& name, double length_s, double period_s) {
 
 }  // namespace
 
-const char* unit_of(const std::string& quantity, bool turns) {
+const char* unit_of(const SignalDifference& signal, const std::vector<char>& joints_turn) {
+  const std::string& quantity = signal.quantity;
+  const auto place = static_cast<std::size_t>(signal.joint - 1);
+  const bool turns = place >= joints_turn.size() || joints_turn[place];
   if (quantity == "position") return turns ? "rad" : "m";
   if (quantity == "velocity") return turns ? "rad/s" : "m/s";
   if (quantity == "torque") return turns ? "N m" : "N";

@@ -1,12 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "lib/compare/run_signals.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr double kNormalMad = 1.4826;      // ratio of standard deviation to median magnitude of normal noise
+constexpr double kThirdDifference = 20.0;  // variance of 1 -3 3 -1 of white noise of variance 1
+constexpr double kUniform = 12.0;          // variance of rounding to steps of 1 is 1 / 12
+
+/// Returns the polynomial through samples [begin, end) at `at` (Lagrange).
+double through(const std::vector<double>& time, const std::vector<double>& values, std::size_t begin,
+               std::size_t end, double at) {
+  double sum = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    double weight = values[i];
+    for (std::size_t k = begin; k < end; ++k)
+      if (k != i) weight *= (at - time[k]) / (time[i] - time[k]);
+    sum += weight;
+  }
+  return sum;
+}
+
+bool has_gap(const std::vector<double>& time, std::size_t begin, std::size_t end, double gap_s) {
+  for (std::size_t i = begin + 1; i < end; ++i)
+    if (time[i] - time[i - 1] > gap_s) return true;
+  return false;
+}
 
 constexpr int kLeastRows = 8;
 
@@ -37,6 +63,35 @@ void add_residuals(RunSignals& run, const Log& log, const ResidualGenerator& gen
 }
 
 }  // namespace
+
+ValueBetween value_between(const std::vector<double>& time, const std::vector<double>& values, double at,
+                           double gap_s) {
+  if (time.empty() || !(at >= time.front()) || at > time.back()) return {kNotKnown, kNotKnown};
+  const auto after = static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), at) - time.begin());
+  if (time[after] == at) return {values[after], 0.0};
+  const std::size_t left = after - 1;
+  if (time[after] - time[left] > gap_s) return {kNotKnown, kNotKnown};
+  const std::size_t begin = left > 0 ? left - 1 : 0, end = std::min(after + 2, time.size());
+  const double line = through(time, values, left, after + 1, at);
+  const double wide = through(time, values, begin, end, at);
+  if (end - begin < 4 || !std::isfinite(wide) || has_gap(time, begin, end, gap_s))
+    return {line, std::isfinite(wide) ? std::abs(wide - line) : 0.0};
+  return {wide, std::abs(wide - through(time, values, begin, end - 1, at))};
+}
+
+double noise_of(const std::vector<double>& values) {
+  std::vector<double> third;
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (const double moved = std::abs(values[i] - values[i - 1]); moved > 0.0) step = std::min(step, moved);
+  for (std::size_t i = 3; i < values.size(); ++i) {
+    const double d = std::abs(values[i] - 3.0 * values[i - 1] + 3.0 * values[i - 2] - values[i - 3]);
+    if (std::isfinite(d)) third.push_back(d);
+  }
+  if (third.empty()) return 0.0;
+  const double smooth = kNormalMad * upper_median(third) / std::sqrt(kThirdDifference);
+  return std::isfinite(step) ? std::max(smooth, step / std::sqrt(kUniform)) : smooth;
+}
 
 const RunSignal* RunSignals::find(const std::string& quantity, int joint) const {
   for (const RunSignal& signal : signals)

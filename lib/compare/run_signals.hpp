@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,25 @@
 #include "lib/residual/residual_generator.hpp"
 
 namespace faultline {
+
+/// Marks a missing value or time.
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+/// Sample periods without a sample from which on there is a gap.
+inline constexpr double kGapPeriods = 4.0;
+
+struct ValueBetween {
+  double value = 0.0;  ///< NaN outside the signal, in a gap and beside a missing sample
+  double error = 0.0;  ///< estimated error: the change by one more sample
+};
+
+/// Interpolates by the cubic through four samples around `at`, but not between samples over `gap_s` apart.
+ValueBetween value_between(const std::vector<double>& time, const std::vector<double>& values, double at,
+                           double gap_s);
+
+/// Returns the standard deviation of a signal's noise from its third differences, which slow motion hardly
+/// affects: robust (a median), at least that of its quantisation step, 0 for fewer than four samples.
+double noise_of(const std::vector<double>& values);
 
 /// One quantity of one joint over a whole run.
 struct RunSignal {
@@ -17,7 +37,6 @@ struct RunSignal {
   std::vector<double> values;
 };
 
-/// The signals of a run for a comparison.
 struct RunSignals {
   std::string name;
   double start_s = 0.0, length_s = 0.0;

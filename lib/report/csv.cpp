@@ -1,31 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "lib/report/csv.hpp"
+#include <fmt/format.h>
 
 #include <vector>
 
 #include "lib/core/csv_cell.hpp"
 #include "lib/fault/label_text.hpp"
-#include "lib/report/precedent_words.hpp"
+#include "lib/report/finding_words.hpp"
+#include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {
 
-std::string csv_row(const std::vector<std::string>& cells) {
-  std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) line += (i ? "," : "") + csv_cell(cells[i]);
-  return line + "\n";
+std::string csv_row(std::vector<std::string> cells) {
+  for (std::string& cell : cells) cell = csv_cell(cell);
+  return fmt::format("{}\n", fmt::join(cells, ","));
 }
 
-std::string alternatives(const FaultFinding& fault) {
-  std::string text;
-  for (const Alternative& a : fault.could_also_be) text += (text.empty() ? "" : ";") + label_text(a.label);
-  return text;
-}
-
-std::string similar_cases_cell(const FaultFinding& fault) {
-  std::string text;
-  for (const Precedent& p : fault.precedents) text += (text.empty() ? "" : ";") + precedent_code(p);
-  return text;
+/// Texts of the items in one cell.
+template <typename Item, typename Text>
+std::string joined(const std::vector<Item>& items, Text text) {
+  std::vector<std::string> texts;
+  for (const Item& item : items) texts.push_back(text(item));
+  return fmt::format("{}", fmt::join(texts, ";"));
 }
 
 std::string fault_row(const Diagnosis& d, const FaultFinding& f) {
@@ -33,8 +29,8 @@ std::string fault_row(const Diagnosis& d, const FaultFinding& f) {
                   csv_cell(f.end_s), csv_cell(f.alarm_s), csv_cell(f.confidence), to_string(f.decided_by),
                   to_string(f.mlp.label.kind), csv_joint(f.mlp.label.joint), csv_cell(f.mlp.confidence),
                   to_string(f.rbfn.label.kind), csv_joint(f.rbfn.label.joint), csv_cell(f.rbfn.confidence),
-                  alternatives(f), to_string(d.verdict), d.log.sha256, d.model.sha256,
-                  similar_cases_cell(f)});
+                  joined(f.could_also_be, [](const Alternative& a) { return label_text(a.label); }),
+                  to_string(d.verdict), d.log.sha256, d.model.sha256, joined(f.precedents, precedent_code)});
 }
 
 std::string healthy_row(const Diagnosis& d) {

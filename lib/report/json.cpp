@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/report/json.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "lib/core/issue_json.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/log/runs/log_run_json.hpp"
+#include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {

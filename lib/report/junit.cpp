@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/report/junit.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
+#include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/report/markdown.hpp"
-
 #include <fmt/format.h>
 
 #include <string_view>
@@ -9,9 +7,7 @@
 #include "lib/core/text.hpp"
 #include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
-#include "lib/report/condition_table.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/precedent_words.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
@@ -41,15 +37,9 @@ std::string list(const std::string& title, const std::vector<std::string>& lines
   return text + "\n";
 }
 
-std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
-
 std::string fault_table(const Diagnosis& d) {
   std::vector<std::vector<std::string>> rows;
-  const double period = d.log.sample_period_s;
-  for (const FaultFinding& f : d.faults)
-    rows.push_back({std::to_string(f.id), plain_words(f.label), onset_words(f, period),
-                    clock_words(f, f.alarm_s, period), clock_words(f, f.end_s, period),
-                    percent_text(f.confidence), decided_words(f)});
+  for (const FaultFinding& f : d.faults) rows.push_back(fault_cells(f, d.log.sample_period_s));
   return table({"fault", "what", "onset", "alarm", "end", "confidence", "decided by"}, rows);
 }
 
@@ -57,8 +47,7 @@ std::string similar_cases_table(const FaultFinding& f) {
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> why;
   for (const Precedent& p : f.precedents) {
-    rows.push_back({std::to_string(p.case_id), fmt::format("{:.2f}", p.similarity), plain_words(p.label),
-                    or_dash(p.origin_text), or_dash(p.what_was_done)});
+    rows.push_back(precedent_cells(p));
     if (const std::string words = likeness_words(p, kShownFeatures); !words.empty())
       why.push_back(fmt::format("case {}, {}", p.case_id, words));
   }
@@ -70,24 +59,10 @@ std::string similar_cases_table(const FaultFinding& f) {
 std::string finding(const FaultFinding& f) {
   std::string text = fmt::format("### Fault {}: {}\n\n", f.id, escaped_markdown(plain_words(f.label)));
   if (!f.next_check.empty()) text += "**Check next:** " + escaped_markdown(f.next_check) + "\n\n";
-  std::vector<std::string> others, evidence;
-  for (const Alternative& a : f.could_also_be) others.push_back(plain_words(a.label) + ": " + a.why);
-  for (const EvidenceItem& item : f.evidence) evidence.push_back(evidence_line(item));
-  text += list("It could also be", others);
+  text += list("It could also be", alternative_lines(f));
   text += similar_cases_table(f);
-  if (was_asked(f.mlp) || was_asked(f.rbfn))
-    text += table({"network", "names", "confidence"},
-                  {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
-                   {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}});
-  return text + list("Evidence", evidence);
-}
-
-std::string residuals_table(const Diagnosis& d) {
-  std::vector<std::vector<std::string>> rows;
-  for (const JointResidual& r : d.residuals)
-    rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
-                    time_text(r.velocity_peak_s, d.log.sample_period_s), value_text(r.position_rms)});
-  return table({"joint", "velocity residual rms (1 = healthy)", "largest", "at", "position rms"}, rows);
+  text += table({"network", "names", "confidence"}, opinion_rows(f));
+  return text + list("Evidence", evidence_lines(f));
 }
 
 std::string provenance(const Diagnosis& d) {
@@ -135,11 +110,11 @@ std::string render_markdown(const Diagnosis& d) {
   text += list(kSmallChangesTitle, small_change_lines(d));
   const FactTable condition = condition_table(d);
   if (!condition.rows.empty()) text += "**" + condition.title + "**\n\n";
-  text += table(condition.head, condition.rows) + residuals_table(d);
-  std::vector<std::string> issues;
-  for (const Issue& issue : d.log.issues.all()) issues.push_back(issue_line(issue));
+  text += table(condition.head, condition.rows);
+  text += table({"joint", "velocity residual rms (1 = healthy)", "largest", "at", "position rms"},
+                residual_rows(d));
   text += list("Notes on the model", d.model.notes);
-  text += list("Issues of the log", issues);
+  text += list("Issues of the log", issue_lines(d.log.issues));
   text += list("What this log and model cannot show", d.cannot_see);
   return text + provenance(d);
 }

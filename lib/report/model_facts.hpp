@@ -22,7 +22,6 @@ FactTable validation_table(const Validation& validation);
 /// What was counted in a row: runs, found, right joint, right, right or named.
 std::vector<std::string> validation_counts(const ValidationRow& row);
 
-/// The logs that the model was learned from.
 FactTable source_table(const Model& model);
 
 }  // namespace faultline

@@ -12,9 +12,7 @@
 #include "lib/core/text.hpp"
 #include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
-#include "lib/report/condition_table.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/precedent_words.hpp"
 
 namespace faultline {
 namespace {
@@ -94,7 +92,7 @@ class FaultBlock {
 
   std::string alternatives() const {
     std::string text;
-    for (const Alternative& a : fault_.could_also_be) text += item(plain_words(a.label) + ": " + a.why);
+    for (const std::string& line : alternative_lines(fault_)) text += item(line);
     return text.empty() ? "" : "  It could also be\n" + text;
   }
 
@@ -122,7 +120,7 @@ class FaultBlock {
 
   std::string evidence() const {
     std::string text;
-    for (const EvidenceItem& e : fault_.evidence) text += item(evidence_line(e));
+    for (const std::string& line : evidence_lines(fault_)) text += item(line);
     return text.empty() ? "" : "  Evidence\n" + text;
   }
 
@@ -157,12 +155,6 @@ std::string bullets(const char* title, const std::vector<std::string>& lines, in
   std::string text = std::string(title) + "\n";
   for (const std::string& line : lines) text += wrapped(printable(line), "    ", width).replace(2, 1, "-");
   return text + "\n";
-}
-
-std::string log_issues(const Diagnosis& d, int width) {
-  std::vector<std::string> lines;
-  for (const Issue& issue : d.log.issues.all()) lines.push_back(issue_line(issue));
-  return bullets("Issues of the log", lines, width);
 }
 
 /// The faults with the highest confidence first; among equals the earliest.
@@ -205,7 +197,7 @@ std::string render_text(const Diagnosis& d, const TimelineOptions& options) {
   if (!timeline.empty()) text += timeline + "\n";
   for (const FaultFinding& fault : d.faults) text += FaultBlock(fault, d.log, options).text() + "\n";
   text += bullets(kSmallChangesTitle, small_change_lines(d), options.width) + condition(d) +
-          residuals_text(d) + log_issues(d, options.width);
+          residuals_text(d) + bullets("Issues of the log", issue_lines(d.log.issues), options.width);
   text += bullets("What this log and model cannot show", d.cannot_see, options.width);
   if (text.ends_with("\n\n")) text.pop_back();
   return text;

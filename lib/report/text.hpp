@@ -25,4 +25,28 @@ std::string render_text(const Diagnosis& diagnosis, const TimelineOptions& optio
 /// The verdict in one sentence, such as "1 fault: joint 2 is locked, from 4.210 s."
 std::string verdict_sentence(const Diagnosis& diagnosis);
 
+/// The diagnosis for an issue tracker or a merge request, in the Markdown of GitHub and GitLab: verdict, a
+/// table of the faults, what to check next, what was wrong with the log, hashes. Texts from outside cannot
+/// become markup, mentions or links.
+std::string render_markdown(const Diagnosis& diagnosis);
+
+/// Text that Markdown shows as it is, also in a cell of a table; one line.
+std::string escaped_markdown(const std::string& text);
+
+/// Schema "faultline/diagnosis/1" (docs/report.md): two-space indented, keys always all there and in the same
+/// order, NaN as null, text as valid UTF-8. The same Diagnosis gives the same bytes.
+std::string render_json(const Diagnosis& diagnosis);
+
+/// One row a fault under a header that is always there, so that rows of several logs can be put together. The
+/// first columns are those of a labels file (file,fault,joint,onset_s,end_s). A log without faults gives one
+/// row with fault "none" when it is healthy and no row when it is inconclusive. RFC 4180 quoting; NaN is
+/// empty; a number is the shortest text that reads back the same.
+std::string render_csv(const Diagnosis& diagnosis);
+std::string csv_header();
+std::string csv_rows(const Diagnosis& diagnosis);
+
+/// JUnit XML for continuous-integration servers: the log is a suite, each joint a test case that fails with
+/// the faults found on it; faults of no joint fail a case "robot"; an inconclusive log is one skipped case.
+std::string render_junit(const Diagnosis& diagnosis);
+
 }  // namespace faultline

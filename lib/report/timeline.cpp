@@ -7,7 +7,7 @@
 
 #include "lib/core/number_text.hpp"
 #include "lib/core/paint.hpp"
-#include "lib/report/plot/plot_axis.hpp"
+#include "lib/report/plot/line_plot.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {

@@ -6,7 +6,7 @@
 
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "lib/report/json.hpp"
+#include "lib/report/text.hpp"
 #include "tests/cases/example_base.hpp"
 #include "tests/report/example_diagnosis.hpp"
 #include "tests/support/run_program.hpp"

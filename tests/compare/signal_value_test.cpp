@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/compare/signal_value.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "lib/compare/warp.hpp"
+#include "lib/compare/motion_pair.hpp"
+#include "lib/compare/run_signals.hpp"
 
 namespace faultline {
 namespace {

@@ -17,8 +17,6 @@
 #include "lib/log/memory_source.hpp"
 #include "lib/log/recorder/corrected_source.hpp"
 #include "lib/model/model_files.hpp"
-#include "lib/report/json.hpp"
-#include "lib/report/junit.hpp"
 #include "lib/report/text.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -11,7 +11,7 @@
 #include "lib/diagnose/curves/run_curves.hpp"
 #include "lib/diagnose/diagnose.hpp"
 #include "lib/diagnose/monitor/model_rate.hpp"
-#include "lib/report/json.hpp"
+#include "lib/report/text.hpp"
 #include "tests/learn/small_robot.hpp"
 
 namespace faultline {

@@ -5,7 +5,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/diagnose/diagnose.hpp"
-#include "lib/report/json.hpp"
+#include "lib/report/text.hpp"
 #include "tests/learn/small_robot.hpp"
 #include "tests/support/resealed_model.hpp"
 

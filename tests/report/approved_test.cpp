@@ -8,11 +8,7 @@
 #include <regex>
 
 #include "lib/core/atomic_file.hpp"
-#include "lib/report/csv.hpp"
 #include "lib/report/html/html_report.hpp"
-#include "lib/report/json.hpp"
-#include "lib/report/junit.hpp"
-#include "lib/report/markdown.hpp"
 #include "lib/report/text.hpp"
 #include "tests/report/example_diagnosis.hpp"
 

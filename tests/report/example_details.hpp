@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "lib/report/html/report_details.hpp"
+#include "lib/report/html/html_report.hpp"
 #include "tests/report/example_diagnosis.hpp"
 
 namespace faultline {

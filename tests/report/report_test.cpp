@@ -10,12 +10,8 @@
 #include <utility>
 
 #include "lib/diagnose/curves/run_curves.hpp"
-#include "lib/report/csv.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/html/html_report.hpp"
-#include "lib/report/json.hpp"
-#include "lib/report/junit.hpp"
-#include "lib/report/markdown.hpp"
 #include "lib/report/text.hpp"
 #include "tests/report/example_details.hpp"
 

@@ -9,12 +9,8 @@
 #include <sstream>
 
 #include "lib/core/number_text.hpp"
-#include "lib/report/csv.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/html/html_report.hpp"
-#include "lib/report/json.hpp"
-#include "lib/report/junit.hpp"
-#include "lib/report/markdown.hpp"
 #include "lib/report/text.hpp"
 #include "tests/report/example_details.hpp"
 

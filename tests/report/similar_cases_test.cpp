@@ -5,12 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "lib/report/csv.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/html/html_report.hpp"
-#include "lib/report/json.hpp"
-#include "lib/report/markdown.hpp"
-#include "lib/report/precedent_words.hpp"
 #include "lib/report/text.hpp"
 #include "tests/report/example_diagnosis.hpp"
 

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "lib/report/html/html_report.hpp"
-#include "lib/report/markdown.hpp"
 #include "lib/report/text.hpp"
 #include "tests/report/example_diagnosis.hpp"
 

@@ -14,7 +14,7 @@
 #include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/html/elements.hpp"
-#include "lib/report/html/source_hash.hpp"
+#include "lib/report/html/head.hpp"
 
 namespace faultline {
 namespace {

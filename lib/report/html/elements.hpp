@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/report/fact_table.hpp"
+#include "lib/report/plot/line_plot.hpp"
 
 /// Pieces of a page; every text is escaped.
 namespace faultline {
@@ -25,5 +26,14 @@ std::string html_table(const FactTable& table);
 std::string html_list(const std::vector<std::string>& lines);
 /// A heading over `content`, none when the title is empty; empty without content.
 std::string html_part(const char* title, const std::string& content);
+
+/// A picture of a page without scripts.
+struct NamedPlot {
+  std::string name;  ///< of its own on the page, fit to be a file's
+  LinePlot plot;
+};
+
+/// Pictures with caption and legend, for a page without scripts; empty without plots.
+std::string still_figures(const std::vector<NamedPlot>& plots);
 
 }  // namespace faultline

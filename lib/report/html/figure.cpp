@@ -9,7 +9,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/report/html/elements.hpp"
 #include "lib/report/html/page_figures.hpp"
-#include "lib/report/plot/plot_axis.hpp"
+#include "lib/report/plot/line_plot.hpp"
 
 namespace faultline {
 namespace {

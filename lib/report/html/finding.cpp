@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/report/html/finding.hpp"
-
 #include <fmt/format.h>
 
 #include "lib/core/markup.hpp"
@@ -10,7 +8,6 @@
 #include "lib/report/finding_words.hpp"
 #include "lib/report/html/elements.hpp"
 #include "lib/report/html/page_figures.hpp"
-#include "lib/report/precedent_words.hpp"
 
 namespace faultline {
 namespace {
@@ -18,24 +15,9 @@ namespace {
 constexpr std::size_t kShownFaults = 12;  // in the table, before it is scrolled
 
 std::string times(const FaultFinding& f, double period_s) {
+  const HtmlRow cells = fault_cells(f, period_s);
   return html_table({"onset", "alarm", "end", "confidence", "decided by"},
-                    {{onset_words(f, period_s), clock_words(f, f.alarm_s, period_s),
-                      clock_words(f, f.end_s, period_s), percent_text(f.confidence), decided_words(f)}},
-                    fmt::format("Fault {}", f.id));
-}
-
-std::string opinions(const FaultFinding& f) {
-  if (!was_asked(f.mlp) && !was_asked(f.rbfn)) return "";
-  return html_table({"network", "names", "confidence"},
-                    {{"MLP", plain_words(f.mlp.label), fmt::format("{:.2f}", f.mlp.confidence)},
-                     {"RBFN", plain_words(f.rbfn.label), fmt::format("{:.2f}", f.rbfn.confidence)}},
-                    "Outputs of both networks");
-}
-
-std::string alternatives_table(const FaultFinding& f) {
-  std::vector<std::string> lines;
-  for (const Alternative& a : f.could_also_be) lines.push_back(plain_words(a.label) + ": " + a.why);
-  return html_list(lines);
+                    {HtmlRow(cells.begin() + 2, cells.end())}, fmt::format("Fault {}", f.id));
 }
 
 std::vector<HtmlRow> feature_rows(const char* likeness, const std::vector<PrecedentFeature>& features) {
@@ -59,21 +41,13 @@ std::string precedents(const FaultFinding& f) {
   std::vector<HtmlRow> rows;
   std::string why;
   for (const Precedent& p : f.precedents) {
-    rows.push_back({std::to_string(p.case_id), fmt::format("{:.2f}", p.similarity), plain_words(p.label),
-                    p.origin_text.empty() ? "-" : p.origin_text,
-                    p.what_was_done.empty() ? "-" : p.what_was_done});
+    rows.push_back(precedent_cells(p));
     why += likeness(p);
   }
   if (!why.empty())
     why += "<p class=\"sub\">A difference of 1 is usual between cases of the same fault.</p>\n";
   return html_table({"case", "similarity", "fault", "origin", "action taken"}, rows, precedents_title(f)) +
          why;
-}
-
-std::string evidence(const FaultFinding& f) {
-  std::vector<std::string> lines;
-  for (const EvidenceItem& item : f.evidence) lines.push_back(evidence_line(item));
-  return html_list(lines);
 }
 
 std::string column(const std::string& content) {
@@ -100,9 +74,11 @@ std::string html_finding(const FaultFinding& f, const std::vector<PageFigure>& f
     text += "<div class=\"check\"><h3>Check next</h3>\n" + escaped_markup(f.next_check) + "</div>\n";
   text += html_plots(figures, f.id, period_s);
   text += "<div class=\"columns\">\n";
-  text += column(html_part("It could also be", alternatives_table(f)));
-  text += column(html_part("Evidence", evidence(f)));
-  text += column(html_part("Outputs of both networks", opinions(f)));
+  text += column(html_part("It could also be", html_list(alternative_lines(f))));
+  text += column(html_part("Evidence", html_list(evidence_lines(f))));
+  text +=
+      column(html_part("Outputs of both networks", html_table({"network", "names", "confidence"},
+                                                              opinion_rows(f), "Outputs of both networks")));
   text += "</div>\n" + html_part(precedents_title(f).c_str(), precedents(f));
   return text + "</section>\n";
 }
@@ -114,7 +90,7 @@ std::string html_fault_link(const FaultFinding& f, double zero_s) {
 
 std::string html_fault_table(const Diagnosis& d) {
   if (d.faults.empty()) return "";
-  const double period = d.log.sample_period_s, zero_s = time_zero(d.log.start_s);
+  const double zero_s = time_zero(d.log.start_s);
   const HtmlRow heads = {"fault", "what", "onset", "alarm", "end", "confidence"};
   std::string text = fmt::format(
       "<div class=\"wide{}\" id=\"faults\"><table{}>\n<caption><span class=\"unseen\">All faults</span>"
@@ -125,13 +101,8 @@ std::string html_fault_table(const Diagnosis& d) {
   text += "</tr></thead>\n<tbody>\n";
   for (const FaultFinding& f : d.faults) {
     text += fmt::format("<tr><td data-label=\"fault\"><a {}>{}</a></td>", html_fault_link(f, zero_s), f.id);
-    const HtmlRow cells = {"",
-                           plain_words(f.label),
-                           onset_words(f, period),
-                           clock_words(f, f.alarm_s, period),
-                           clock_words(f, f.end_s, period),
-                           percent_text(f.confidence)};
-    for (std::size_t i = 1; i < cells.size(); ++i)
+    const HtmlRow cells = fault_cells(f, d.log.sample_period_s);
+    for (std::size_t i = 1; i < heads.size(); ++i)
       text += fmt::format("<td data-label=\"{}\">{}</td>", heads[i], escaped_markup(cells[i]));
     text += "</tr>\n";
   }

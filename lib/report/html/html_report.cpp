@@ -8,17 +8,27 @@
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/report/condition_table.hpp"
+#include "lib/diagnose/curves/run_curves.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/html/assets.hpp"
 #include "lib/report/html/elements.hpp"
-#include "lib/report/html/finding.hpp"
 #include "lib/report/html/head.hpp"
 #include "lib/report/html/page_figures.hpp"
+#include "lib/report/model_facts.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {
+
+FactTable option_table(const Model& model, const DiagnoseOptions& options) {
+  FactTable table{"Options", {}, {}};
+  table.rows.push_back({"--classify", to_string(options.mode)});
+  if (options.mode == ClassifyMode::samples) {
+    table.rows.push_back({"--criterion", to_string(options.criterion)});
+    table.rows.push_back({"--g", options.g > 0 ? std::to_string(options.g) : "0 (as tuned by learn)"});
+  }
+  table.rows.push_back({"least alarm threshold", fact_text(least_limit(model.explain.limits), "nats")});
+  return table;
+}
 
 std::string rate_text(const LogFacts& log) {
   if (!(log.sample_period_s > 0.0)) return "";
@@ -50,14 +60,10 @@ std::string top(const Diagnosis& d) {
 }
 
 std::string residual_table(const Diagnosis& d) {
-  std::vector<HtmlRow> rows;
-  for (const JointResidual& r : d.residuals)
-    rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
-                    time_text(r.velocity_peak_s, d.log.sample_period_s), value_text(r.position_rms)});
   return html_table(
       FactTable{"Residuals against the regenerated fault-free motion (1 = as in the healthy logs)",
                 {"joint", "velocity rms", "largest", "at", "position rms"},
-                rows});
+                residual_rows(d)});
 }
 
 std::string log_quality(const Diagnosis& d) {
@@ -128,6 +134,18 @@ std::vector<FaultFinding> counted_from(double zero_s, std::vector<FaultFinding> 
 }
 
 }  // namespace
+
+ReportDetails report_details(LogSource& log, const Model& model, const Diagnosis& diagnosis,
+                             const DiagnoseOptions& options) {
+  ReportDetails details;
+  details.curves = run_curves(log, model, diagnosis);
+  details.model = {robot_facts(model)};
+  if (model.identification.status != IdentificationStatus::not_run)
+    details.model.push_back(parameter_table(model.identification));
+  if (!model.validation.rows.empty()) details.model.push_back(validation_table(model.validation));
+  details.provenance = {option_table(model, options), source_table(model)};
+  return details;
+}
 
 std::string render_html(const Diagnosis& d, const ReportDetails& details) {
   const double zero_s = time_zero(d.log.start_s), period = d.log.sample_period_s;

@@ -7,7 +7,7 @@
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/inside_script.hpp"
 #include "lib/core/utf8.hpp"
-#include "lib/report/html/base64.hpp"
+#include "lib/report/html/head.hpp"
 #include "lib/report/html/page_figures.hpp"
 
 namespace faultline {
@@ -70,33 +70,30 @@ Json window_json(const CurveWindow& window) {
 double short_number(double value) { return std::round(value * 1000.0) / 1000.0; }
 
 Json trace_json(const FaultFinding& fault) {
-  Json keys = Json::object(), times = Json::array();
-  for (const double time : fault.trace.time) times.push_back(time);
-  for (std::size_t i = 0; i < fault.trace.curves.size(); ++i) {
-    Json values = Json::array();
-    for (const double ratio : fault.trace.curves[i].ratio)
-      values.push_back(number_or_null(short_number(ratio)));
-    keys["e" + std::to_string(fault.id) + "-" + std::to_string(i)] = std::move(values);
-  }
-  return {{"times", std::move(times)}, {"keys", std::move(keys)}};
+  Json keys = Json::object();
+  for (std::size_t i = 0; i < fault.trace.curves.size(); ++i)
+    keys["e" + std::to_string(fault.id) + "-" + std::to_string(i)] = list_of<Json>(
+        fault.trace.curves[i].ratio, [](double ratio) { return number_or_null(short_number(ratio)); });
+  return {{"times", fault.trace.time}, {"keys", std::move(keys)}};
 }
 
 Json figure_json(const PageFigure& figure) {
-  Json curves = Json::array(), limits = Json::array(), marks = Json::array();
-  for (const FigureCurve& curve : figure.curves)
-    curves.push_back(Json::array({valid_utf8(curve.name), curve.key, curve.pen}));
-  for (const FigureLimit& limit : figure.limits) limits.push_back(limit.value);
-  for (const PlotMark& mark : figure.marks) marks.push_back(Json::array({mark.x, mark.text}));
-  return {{"id", figure.id},
-          {"fault", figure.fault_id},
-          {"group", figure.group},
-          {"log", figure.log_y},
-          {"from", figure.from_s},
-          {"to", figure.to_s},
-          {"least", number_or_null(figure.least_y)},
-          {"curves", curves},
-          {"limits", limits},
-          {"marks", marks}};
+  return {
+      {"id", figure.id},
+      {"fault", figure.fault_id},
+      {"group", figure.group},
+      {"log", figure.log_y},
+      {"from", figure.from_s},
+      {"to", figure.to_s},
+      {"least", number_or_null(figure.least_y)},
+      {"curves", list_of<Json>(figure.curves,
+                               [](const FigureCurve& curve) {
+                                 return Json::array({valid_utf8(curve.name), curve.key, curve.pen});
+                               })},
+      {"limits", list_of<Json>(figure.limits, [](const FigureLimit& limit) { return Json(limit.value); })},
+      {"marks", list_of<Json>(figure.marks, [](const PlotMark& mark) {
+         return Json::array({mark.x, mark.text});
+       })}};
 }
 
 }  // namespace

@@ -4,11 +4,8 @@
 #include <algorithm>
 
 #include "lib/core/error.hpp"
-#include "lib/report/csv.hpp"
 #include "lib/report/html/html_report.hpp"
-#include "lib/report/json.hpp"
-#include "lib/report/junit.hpp"
-#include "lib/report/markdown.hpp"
+#include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {

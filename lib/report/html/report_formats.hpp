@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/diagnose/diagnosis.hpp"
-#include "lib/report/html/report_details.hpp"
+#include "lib/report/html/html_report.hpp"
 
 namespace faultline {
 

@@ -10,8 +10,8 @@
 #include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/finding_words.hpp"
-#include "lib/report/html/finding.hpp"
-#include "lib/report/plot/plot_axis.hpp"
+#include "lib/report/html/page_figures.hpp"
+#include "lib/report/plot/line_plot.hpp"
 
 namespace faultline {
 namespace {

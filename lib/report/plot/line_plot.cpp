@@ -9,8 +9,6 @@
 #include <tuple>
 
 #include "lib/core/markup.hpp"
-#include "lib/report/plot/plot_axis.hpp"
-#include "lib/report/plot/plot_series.hpp"
 
 namespace faultline {
 namespace {

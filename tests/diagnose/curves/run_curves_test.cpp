@@ -7,7 +7,6 @@
 
 #include "lib/diagnose/diagnose.hpp"
 #include "lib/report/html/html_report.hpp"
-#include "lib/report/html/report_details.hpp"
 #include "tests/learn/small_robot.hpp"
 
 namespace faultline {

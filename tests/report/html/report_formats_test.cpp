@@ -7,7 +7,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/report/html/html_report.hpp"
-#include "lib/report/json.hpp"
+#include "lib/report/text.hpp"
 #include "tests/report/example_details.hpp"
 
 namespace faultline {

@@ -5,8 +5,6 @@
 
 #include <limits>
 
-#include "lib/report/plot/plot_axis.hpp"
-
 namespace faultline {
 namespace {
 

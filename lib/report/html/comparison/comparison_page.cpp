@@ -14,7 +14,6 @@
 #include "lib/diagnose/curves/envelope_builder.hpp"
 #include "lib/report/html/elements.hpp"
 #include "lib/report/html/head.hpp"
-#include "lib/report/html/still_figures.hpp"
 
 namespace faultline {
 namespace {
@@ -22,10 +21,6 @@ namespace {
 constexpr int kCurveBins = 700;   // of a curve
 constexpr double kAround = 0.08;  // of the run, shown before and after the first divergence
 constexpr int kRedPen = 1;
-
-bool turns_at(const std::vector<char>& turns, int joint) {
-  return static_cast<std::size_t>(joint) > turns.size() || turns[static_cast<std::size_t>(joint) - 1];
-}
 
 struct TimeSpan {
   double from = 0.0, to = 0.0;
@@ -96,10 +91,9 @@ std::string scrolling(std::string table) {
 std::string difference_table(const RunComparison& comparison, const std::vector<char>& turns) {
   std::vector<HtmlRow> rows;
   for (const SignalDifference& s : comparison.signals)
-    rows.push_back({s.quantity, std::to_string(s.joint), unit_of(s.quantity, turns_at(turns, s.joint)),
-                    value_text(s.rms), value_text(s.largest),
-                    std::isnan(s.largest_s) ? "-" : seconds_text(s.largest_s), value_text(s.threshold),
-                    percent_text(s.beyond),
+    rows.push_back({s.quantity, std::to_string(s.joint), unit_of(s, turns), value_text(s.rms),
+                    value_text(s.largest), std::isnan(s.largest_s) ? "-" : seconds_text(s.largest_s),
+                    value_text(s.threshold), percent_text(s.beyond),
                     !s.judged                  ? "not judged"
                     : std::isnan(s.diverges_s) ? "-"
                                                : seconds_text(s.diverges_s)});
@@ -147,8 +141,7 @@ std::string close_up(const RunComparison& c, const std::vector<char>& turns) {
   std::vector<NamedPlot> plots;
   for (const SignalDifference& signal : c.signals)
     if (signal.joint == first->joint && !std::isnan(signal.rms))
-      plots.push_back(
-          plot_of(signal, unit_of(signal.quantity, turns_at(turns, signal.joint)), span, "-close"));
+      plots.push_back(plot_of(signal, unit_of(signal, turns), span, "-close"));
   return fmt::format("<h2>Around {}</h2>\n", seconds_text(first->diverges_s)) + still_figures(plots);
 }
 
@@ -163,7 +156,7 @@ std::string render_comparison_html(const RunComparison& c, const std::vector<cha
     std::vector<NamedPlot> plots;
     for (const SignalDifference& signal : c.signals)
       if (signal.quantity == quantity && !std::isnan(signal.rms))
-        plots.push_back(plot_of(signal, unit_of(signal.quantity, turns_at(turns, signal.joint)), whole, ""));
+        plots.push_back(plot_of(signal, unit_of(signal, turns), whole, ""));
     if (!plots.empty()) text += fmt::format("<h2>By {}</h2>\n", quantity) + still_figures(plots);
   }
   return text + "</main>\n</body>\n</html>\n";

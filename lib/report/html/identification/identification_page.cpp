@@ -11,8 +11,6 @@
 #include "lib/core/version.hpp"
 #include "lib/report/html/elements.hpp"
 #include "lib/report/html/head.hpp"
-#include "lib/report/html/identification/torque_figures.hpp"
-#include "lib/report/html/still_figures.hpp"
 #include "lib/report/identification_text.hpp"
 #include "lib/robot/axis_units.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/identify/identification.hpp"
-#include "lib/report/html/identification/joint_figures.hpp"
+#include "lib/report/html/elements.hpp"
 
 namespace faultline {
 
@@ -13,7 +13,15 @@ namespace faultline {
 /// it repeats with, excitation and trends. The same identification gives the same bytes.
 std::string render_identification_html(const Identification& identification);
 
-/// Its pictures, to be drawn one by one with render_svg.
+/// The size of every figure.
+LinePlot figure_plot(const std::string& title, const std::string& x_label);
+
+/// One joint (from 0): measured and modelled torque over the log that is explained worst and over the seconds
+/// of it where most is left, what is left over position and speed, friction over speed, and the spectrum of
+/// what is left. Empty without curves, as after reading an identification from JSON.
+std::vector<NamedPlot> joint_figures(const Identification& identification, int joint);
+
+/// The pictures of a page, to be drawn one by one with render_svg.
 std::vector<NamedPlot> identification_figures(const Identification& identification);
 
 }  // namespace faultline

@@ -1,19 +1,103 @@
 // SPDX-License-Identifier: MIT
-#include "lib/report/html/identification/joint_figures.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "lib/report/html/identification/torque_figures.hpp"
+#include "lib/core/text.hpp"
+#include "lib/report/html/identification/identification_page.hpp"
 #include "lib/robot/axis_units.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/robot_words.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr std::size_t kSamples = 480;  // of a curve, about one a pixel
+constexpr double kClose_s = 5.0;       // of the figure that looks closely
+constexpr double kGapOfWindows = 4.0;  // windows without one break the curve
+constexpr int kWidth = 420, kHeight = 150;
+
+/// Windows of one log.
+struct Span {
+  std::size_t begin = 0, end = 0;
+};
+
+Span windows_of(const JointFit& fit, int log) {
+  const auto begin = std::find(fit.log.begin(), fit.log.end(), log);
+  const auto end = std::find_if(begin, fit.log.end(), [log](int l) { return l != log; });
+  return {static_cast<std::size_t>(begin - fit.log.begin()), static_cast<std::size_t>(end - fit.log.begin())};
+}
+
+/// The log of which this joint's torque is explained worst.
+int worst_log(const Identification& id, const JointFit& fit, int joint) {
+  int worst = fit.log.front();
+  double least = 2.0;
+  for (std::size_t i = 0; i < id.logs.size(); ++i) {
+    const std::vector<double>& r2 = id.logs[i].fit_r2;
+    const Span span = windows_of(fit, static_cast<int>(i));
+    if (span.begin == span.end || joint >= std::ssize(r2) || !(r2[joint] < least)) continue;
+    least = r2[joint];
+    worst = static_cast<int>(i);
+  }
+  return worst;
+}
+
+/// The windows of kClose_s in which most is left.
+Span worst_seconds(const JointFit& fit, const Span& all) {
+  Span best{all.begin, all.begin};
+  double largest = -1.0, sum = 0.0;
+  for (std::size_t begin = all.begin, end = all.begin; end < all.end; ++end) {
+    sum += fit.residual(end) * fit.residual(end);
+    for (; fit.time_s[end] - fit.time_s[begin] > kClose_s; ++begin)
+      sum -= fit.residual(begin) * fit.residual(begin);
+    if (sum > largest) largest = sum, best = {begin, end + 1};
+  }
+  return best;
+}
+
+/// The extremes of each group of samples, in their order.
+template <typename Value>
+PlotSeries curve(const std::string& name, const JointFit& fit, const Span& span, Value value) {
+  PlotSeries out{.name = name, .x = {}, .y = {}};
+  const std::size_t count = span.end - span.begin, group = 2 * ((count + kSamples - 1) / kSamples);
+  const auto put = [&](std::size_t k) {
+    if (!out.x.empty() &&
+        fit.time_s[k] - out.x.back() > kGapOfWindows * fit.window_s * static_cast<double>(group)) {
+      out.x.push_back(fit.time_s[k]);
+      out.y.push_back(std::nan(""));
+    }
+    out.x.push_back(fit.time_s[k]);
+    out.y.push_back(value(k));
+  };
+  if (count <= kSamples) {
+    for (std::size_t k = span.begin; k < span.end; ++k) put(k);
+    return out;
+  }
+  for (std::size_t begin = span.begin; begin < span.end; begin += group) {
+    std::size_t low = begin, high = begin;
+    for (std::size_t k = begin; k < std::min(begin + group, span.end); ++k) {
+      if (value(k) < value(low)) low = k;
+      if (value(k) > value(high)) high = k;
+    }
+    put(std::min(low, high));
+    if (low != high) put(std::max(low, high));
+  }
+  return out;
+}
+
+LinePlot over_time(const JointFit& fit, const Span& span, const std::string& title, const char* unit,
+                   const char* logged) {
+  LinePlot plot = figure_plot(title, "time, s");
+  plot.panels = {{.y_label = unit,
+                  .series = {curve(logged, fit, span, [&](std::size_t k) { return fit.measured[k]; }),
+                             curve("modelled", fit, span, [&](std::size_t k) { return fit.modelled[k]; })}},
+                 {.y_label = fmt::format("residual, {}", unit),
+                  .series = {curve("residual", fit, span, [&](std::size_t k) { return fit.residual(k); })}}};
+  plot.panels[1].series[0].pen = 2;
+  return plot;
+}
 
 constexpr std::size_t kDots = 1200;  // of a cloud
 constexpr std::size_t kBins = 30;    // of the mean through it
@@ -111,7 +195,39 @@ NamedPlot spectrum_figure(const Identification& id, int joint) {
   return {fmt::format("spectrum-{}", joint + 1), plot};
 }
 
+/// Measured and modelled torque, and what is left, of the log that is explained worst: all of it, and the
+/// seconds where most is left.
+std::vector<NamedPlot> torque_figures(const Identification& id, int joint) {
+  const JointFit& fit = id.joint_fits[joint];
+  if (fit.size() == 0) return {};
+  const AxisKind kind = id.space.chain.geometry[joint].kind;
+  const char* what = kind == AxisKind::revolute ? "torque" : "force";
+  const char* logged = logged_words(id.robot.log.torque);
+  const int log = worst_log(id, fit, joint);
+  const Span all = windows_of(fit, log), close = worst_seconds(fit, all);
+  const std::string of_log = id.logs.size() > 1 ? fmt::format(", log {}", log + 1) : "";
+  std::vector<NamedPlot> plots = {
+      {fmt::format("torque-{}", joint + 1),
+       over_time(fit, all, fmt::format("Joint {}: {} {} and modelled{}", joint + 1, what, logged, of_log),
+                 torque_unit(kind), logged)}};
+  if (close.end - close.begin < all.end - all.begin)
+    plots.push_back(
+        {fmt::format("torque-close-{}", joint + 1),
+         over_time(fit, close, fmt::format("Joint {}: largest {} residual{}", joint + 1, what, of_log),
+                   torque_unit(kind), logged)});
+  return plots;
+}
+
 }  // namespace
+
+LinePlot figure_plot(const std::string& title, const std::string& x_label) {
+  return {.title = title,
+          .x_label = x_label,
+          .panels = {},
+          .marks = {},
+          .width = kWidth,
+          .panel_height = kHeight};
+}
 
 std::vector<NamedPlot> joint_figures(const Identification& id, int joint) {
   if (joint >= std::ssize(id.joint_fits) || id.joint_fits[joint].size() == 0) return {};
