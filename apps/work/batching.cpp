@@ -10,8 +10,8 @@
 #include "apps/work/file_use.hpp"
 #include "apps/work/robot_log.hpp"
 #include "formats/log_formats.hpp"
-#include "lib/batch/choose_models.hpp"
-#include "lib/batch/merge_batches.hpp"
+#include "lib/batch/find_logs.hpp"
+#include "lib/batch/run_batch.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {

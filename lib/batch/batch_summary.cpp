@@ -38,6 +38,19 @@ void count_verdict(BatchCounts& counts, const BatchRow& row) {
   if (judged && std::isfinite(row.end_s - row.start_s)) counts.hours += (row.end_s - row.start_s) / 3600.0;
 }
 
+BatchCounts counts_of(const std::vector<const BatchRow*>& rows) {
+  BatchCounts counts;
+  std::vector<double> residuals;
+  for (const BatchRow* row : rows) {
+    count_verdict(counts, *row);
+    if (const double level = residual_level(*row); std::isfinite(level)) residuals.push_back(level);
+  }
+  counts.median_residual = upper_median(residuals);
+  counts.largest_residual = residuals.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                              : *std::max_element(residuals.begin(), residuals.end());
+  return counts;
+}
+
 Json counts_json(const BatchCounts& c) {
   return {{"logs", c.logs},
           {"healthy", c.healthy},
@@ -142,19 +155,6 @@ BatchFacts read_facts(const std::string& path) {
     // said below
   }
   throw Error(ErrorCode::input, path, "does not describe a finished batch; run the batch again");
-}
-
-BatchCounts counts_of(const std::vector<const BatchRow*>& rows) {
-  BatchCounts counts;
-  std::vector<double> residuals;
-  for (const BatchRow* row : rows) {
-    count_verdict(counts, *row);
-    if (const double level = residual_level(*row); std::isfinite(level)) residuals.push_back(level);
-  }
-  counts.median_residual = upper_median(residuals);
-  counts.largest_residual = residuals.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                              : *std::max_element(residuals.begin(), residuals.end());
-  return counts;
 }
 
 BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& facts) {

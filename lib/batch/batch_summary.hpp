@@ -33,7 +33,6 @@ std::string facts_to_json(const BatchFacts& facts);
 /// Throws Error(input).
 BatchFacts read_facts(const std::string& path);
 
-/// Counts over some of the logs.
 struct BatchCounts {
   int logs = 0, healthy = 0, faulty = 0, inconclusive = 0, unusable = 0, failed = 0;
   int faults = 0;
@@ -41,15 +40,12 @@ struct BatchCounts {
   double median_residual = 0.0;   ///< of residual_level(); NaN without any
   double largest_residual = 0.0;  ///< likewise
 };
-BatchCounts counts_of(const std::vector<const BatchRow*>& rows);
 
-/// A log without a diagnosis.
 struct LogWithoutDiagnosis {
   std::string log;
   std::string reason;
 };
 
-/// A batch as a whole.
 struct BatchSummary {
   BatchFacts facts;
   BatchCounts all;

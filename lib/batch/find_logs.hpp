@@ -6,7 +6,6 @@
 
 namespace faultline {
 
-/// A log of a batch.
 struct BatchLog {
   std::string path;  ///< where to read it
   /// What every result calls it: below a folder that was given, with that folder's own name in front; the
@@ -22,5 +21,12 @@ struct BatchLog {
 /// Error(input) when a path is not there.
 std::vector<BatchLog> find_logs(const std::vector<std::string>& paths,
                                 const std::vector<std::string>& endings);
+
+/// Returns the logs, each with the model whose folder it lies in (BatchLog::model = place in `folders`):
+/// `folders` holds the folder of each model, "" for the model of all other logs. A log lies in a folder when
+/// its file does, or when the parts of the folder's name follow each other in the log's name; of several the
+/// deepest counts. Throws Error(usage) when a log has no model, a folder has two, or there is no folder of a
+/// name.
+std::vector<BatchLog> with_models(std::vector<BatchLog> logs, const std::vector<std::string>& folders);
 
 }  // namespace faultline

@@ -15,6 +15,7 @@
 #include "lib/core/files/other_names.hpp"
 #include "lib/core/files/plain_name.hpp"
 #include "lib/core/hash.hpp"
+#include "lib/core/json/json_fields.hpp"
 
 namespace faultline {
 namespace {
@@ -39,14 +40,24 @@ void refuse_names(const JournalEntry& entry, const std::string& journal) {
                     "not use these results; run the batch again into a new folder");
 }
 
+}  // namespace
+
+void fields(auto& v, MaybeConst<JournalEntry> auto& entry) {
+  v("key", entry.key);
+  v("position", entry.position);
+  v("json_sha", entry.json_sha);
+  v("html_sha", entry.html_sha);
+  v.as("row", entry.row, to_json_line, row_from_json);
+}
+
+namespace {
+
 std::optional<JournalEntry> entry_from(const std::string& line) {
   if (line.size() < kChecksum + 2) return {};
   const std::string text = line.substr(kChecksum + 1);
   if (line.substr(0, kChecksum) != checksum(text)) return {};
   try {
-    const Json json = Json::parse(text);
-    return JournalEntry{json.at("key"), json.at("position"), json.at("json_sha"), json.at("html_sha"),
-                        row_from_json(json.at("row").get<std::string>())};
+    return fields_from_json<JournalEntry>(Json::parse(text), "");
   } catch (const std::exception&) {
     return {};  // not of this program: the log is done again
   }
@@ -55,12 +66,7 @@ std::optional<JournalEntry> entry_from(const std::string& line) {
 }  // namespace
 
 std::string to_journal_line(const JournalEntry& entry) {
-  const Json json = {{"key", entry.key},
-                     {"position", entry.position},
-                     {"json_sha", entry.json_sha},
-                     {"html_sha", entry.html_sha},
-                     {"row", to_json_line(entry.row)}};
-  const std::string text = json.dump();
+  const std::string text = fields_to_json<Json>(entry).dump();
   return checksum(text) + " " + text + "\n";
 }
 

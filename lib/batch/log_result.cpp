@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "lib/core/hash.hpp"
+#include "lib/core/utf8.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/report/html/html_report.hpp"
 #include "lib/report/text.hpp"
@@ -18,11 +19,6 @@ constexpr std::size_t kHash = 12;
 
 std::string joined(const std::string& a, const std::string& b) {
   return std::to_string(a.size()) + " " + a + "\n" + b + "\n";
-}
-
-std::string render_page(LogSource& log, const Model& model, const Diagnosis& diagnosis,
-                        const DiagnoseOptions& options) {
-  return render_html(diagnosis, report_details(log, model, diagnosis, options));
 }
 
 /// From this log alone, on one thread and a limited number of rows: quick, and precise enough for a trend.
@@ -51,7 +47,22 @@ void refuse_changed(const BatchLog& log, const FileStamp& before, const std::str
   throw Error(ErrorCode::input, log.path, "changed while it was read; run again when it is complete");
 }
 
+bool is_file_with(const BatchFolder& folder, const std::string& name, const std::string& sha256) {
+  return sha256.empty() || (folder.has(name) && sha256_of_file(folder.file(name)) == sha256);
+}
+
+bool is_intact(const JournalEntry& entry, const BatchFolder& folder) {
+  const std::string stem = "logs/" + entry.row.result;
+  return is_file_with(folder, stem + ".json", entry.json_sha) &&
+         is_file_with(folder, stem + ".html", entry.html_sha);
+}
+
 }  // namespace
+
+FileStamp stamp_of(const std::string& path) {
+  std::error_code error;  // then both values are such as no file has
+  return {std::filesystem::file_size(path, error), std::filesystem::last_write_time(path, error)};
+}
 
 std::string result_name(const std::string& log_name, const std::string& log_sha256) {
   std::string name = log_name.size() > kReadable ? log_name.substr(log_name.size() - kReadable) : log_name;
@@ -83,7 +94,8 @@ JournalEntry write_log_result(const BatchLog& log, const BatchSetup& setup) {
   entry.row.result = result_name(log.name, diagnosis.log.sha256);
   const std::string stem = "logs/" + entry.row.result;
   if (options.html) {
-    const std::string page = render_page(*source, model, diagnosis, options.diagnose);
+    const std::string page =
+        render_html(diagnosis, report_details(*source, model, diagnosis, options.diagnose));
     refuse_changed(log, before, diagnosis.log.sha256);
     setup.folder.write(stem + ".html", page);
     entry.html_sha = sha256_hex(page);
@@ -109,6 +121,17 @@ JournalEntry unusable_result(const BatchLog& log, const FileStamp& before, const
   if (reason.code() != ErrorCode::internal && stamp_of(log.path) == before)
     entry.key = result_key(settings, log, entry.row.sha256);
   return entry;
+}
+
+EarlierResults::EarlierResults(const BatchFolder& folder)
+    : folder_(folder), entries_(read_journal(folder.journal())) {
+  for (const auto& [key, entry] : entries_) logs_.insert(entry.row.log);
+}
+
+const JournalEntry* EarlierResults::find(const BatchLog& log, const std::string& settings) const {
+  if (!logs_.count(valid_utf8(log.name))) return nullptr;
+  const auto found = entries_.find(result_key(settings, log, sha256_of_file(log.path)));
+  return found != entries_.end() && is_intact(found->second, folder_) ? &found->second : nullptr;
 }
 
 }  // namespace faultline

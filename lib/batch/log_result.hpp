@@ -1,14 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 
 #include "lib/batch/batch_folder.hpp"
-#include "lib/batch/file_stamp.hpp"
+#include "lib/batch/find_logs.hpp"
 #include "lib/batch/journal.hpp"
 #include "lib/batch/run_batch.hpp"
 
 namespace faultline {
+
+/// Tells without reading a file whether it was written to meanwhile.
+struct FileStamp {
+  std::uintmax_t bytes = 0;
+  std::filesystem::file_time_type written{};
+
+  bool operator==(const FileStamp&) const = default;
+};
+
+/// Of a file that is not there: one that no file has.
+FileStamp stamp_of(const std::string& path);
 
 /// The name in logs/ of the result of a log of this name and content: readable, without what a file name
 /// should not hold, and different for different names or contents.
@@ -36,5 +51,21 @@ JournalEntry write_log_result(const BatchLog& log, const BatchSetup& setup);
 /// reason is a defect of the program.
 JournalEntry unusable_result(const BatchLog& log, const FileStamp& before, const Error& reason,
                              const ModelFacts& model, const std::string& settings);
+
+/// What earlier runs into a folder have done, finished or killed.
+class EarlierResults {
+ public:
+  explicit EarlierResults(const BatchFolder& folder);
+
+  /// `settings`: settings_of() this run and the log's model. The entry of the log as it is now, when its
+  /// result files are there as they were written; null else. The log is read, for its hash, only when one of
+  /// its name was done. Throws Error(input) when it cannot be.
+  const JournalEntry* find(const BatchLog& log, const std::string& settings) const;
+
+ private:
+  const BatchFolder& folder_;
+  std::map<std::string, JournalEntry> entries_;  ///< by key
+  std::set<std::string> logs_;                   ///< names
+};
 
 }  // namespace faultline

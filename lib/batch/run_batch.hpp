@@ -13,7 +13,6 @@
 
 namespace faultline {
 
-/// How far a batch is.
 struct BatchProgress {
   int done = 0, diagnosed = 0, logs = 0;
 };
@@ -43,5 +42,10 @@ using OpenLog = std::function<std::unique_ptr<LogSource>(const std::string& path
 BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open,
                       const std::vector<ModelFiles>& models, const std::string& folder,
                       const BatchOptions& options = {});
+
+/// Puts the finished shards of one batch together into `into`: the same bytes as one run over the whole list.
+/// Throws Error(input) when a folder is no finished batch, was made with other model, cases, options or logs,
+/// or a shard is missing.
+BatchSummary merge_batches(const std::vector<std::string>& folders, const std::string& into);
 
 }  // namespace faultline

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/batch/choose_models.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
+#include "lib/batch/find_logs.hpp"
 #include "lib/core/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "lib/batch/batch_index.hpp"
-#include "lib/batch/merge_batches.hpp"
+#include "lib/batch/run_batch.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "lib/batch/growing_file.hpp"
+#include "lib/batch/batch_index.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -8,8 +8,6 @@
 #include <fstream>
 
 #include "formats/open_log.hpp"
-#include "lib/batch/earlier_results.hpp"
-#include "lib/batch/file_stamp.hpp"
 #include "lib/batch/log_result.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/hash.hpp"

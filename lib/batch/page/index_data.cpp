@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/batch/page/index_page.hpp"
-#include "lib/batch/page/index_trends.hpp"
 #include "lib/core/distributions.hpp"
 #include "lib/core/outgoing/inside_script.hpp"
 #include "lib/core/outgoing/json_text.hpp"
@@ -37,59 +36,45 @@ std::string list(const Items& items, Text text) {
   return all + "]";
 }
 
-/// Texts that rows name by their place.
-class Names {
+/// Values that rows name by their place in a list.
+class Places {
  public:
-  int place(const std::string& text) {
-    const auto [found, fresh] = places_.try_emplace(text, static_cast<int>(texts_.size()));
-    if (fresh) texts_.push_back(text);
+  /// `value` gives what stands in the list for `key`, as JSON.
+  template <typename Value>
+  int place(const std::string& key, Value value) {
+    const auto [found, fresh] = places_.try_emplace(key, static_cast<int>(values_.size()));
+    if (fresh) values_.push_back(value());
     return found->second;
   }
-  std::string json() const {
-    return list(texts_, [](const std::string& text) { return shown(text); });
-  }
+  std::string json() const { return fmt::format("[{}]", fmt::join(values_, ",")); }
 
  private:
   std::map<std::string, int> places_;
-  std::vector<std::string> texts_;
-};
-
-/// A kind of fault in the words of programs and of people.
-class FaultLabels {
- public:
-  int place(const FaultLabel& label) {
-    const std::string key = fmt::format("{} {}", to_string(label.kind), label.joint);
-    const auto [found, fresh] = places_.try_emplace(key, static_cast<int>(texts_.size()));
-    if (fresh) texts_.push_back("[" + quoted(to_string(label.kind)) + "," + quoted(plain_words(label)) + "]");
-    return found->second;
-  }
-  std::string json() const {
-    return list(texts_, [](const std::string& text) { return text; });
-  }
-
- private:
-  std::map<std::string, int> places_;
-  std::vector<std::string> texts_;
+  std::vector<std::string> values_;
 };
 
 struct IndexNames {
-  Names parameters;
-  FaultLabels labels;
+  Places parameters, labels;
   std::map<std::string, int> models;  ///< by hash
 };
 
-std::string faults_json(const std::vector<FaultEvent>& faults, FaultLabels& labels) {
+/// A kind of fault stands there in the words of programs and of people.
+std::string faults_json(const std::vector<FaultEvent>& faults, Places& labels) {
   return list(faults, [&](const FaultEvent& fault) {
-    return fmt::format("[{},{},{},{},{},{}]", labels.place(fault.label), fault.label.joint,
-                       number(fault.onset_s, kTimeDigits), number(fault.alarm_s, kTimeDigits),
-                       number(fault.end_s, kTimeDigits), number(fault.confidence));
+    const FaultLabel& label = fault.label;
+    const int place = labels.place(fmt::format("{} {}", to_string(label.kind), label.joint), [&] {
+      return fmt::format("[{},{}]", quoted(to_string(label.kind)), quoted(plain_words(label)));
+    });
+    return fmt::format("[{},{},{},{},{},{}]", place, label.joint, number(fault.onset_s, kTimeDigits),
+                       number(fault.alarm_s, kTimeDigits), number(fault.end_s, kTimeDigits),
+                       number(fault.confidence));
   });
 }
 
-std::string parameters_json(const std::vector<ParameterValue>& values, Names& names) {
+std::string parameters_json(const std::vector<ParameterValue>& values, Places& names) {
   return list(values, [&](const ParameterValue& p) {
-    return fmt::format("[{},{},{}]", names.place(p.name), number(p.value, kDigits + 2),
-                       number(kNormal95 * p.std));
+    return fmt::format("[{},{},{}]", names.place(p.name, [&] { return shown(p.name); }),
+                       number(p.value, kDigits + 2), number(kNormal95 * p.std));
   });
 }
 

@@ -5,9 +5,14 @@
 #include <string_view>
 #include <vector>
 
+#include "lib/batch/batch_row.hpp"
 #include "lib/batch/batch_summary.hpp"
 
 namespace faultline {
+
+/// The faults of a run on a bar a joint: pale from onset to alarm, full from alarm to end. Empty for a log
+/// without a span of time.
+std::string index_thumbnail(const BatchRow& row);
 
 /// One self-contained page over all logs: counts, trends, a row a log with a picture of its timeline, which a
 /// small script sorts and filters. Nothing is loaded, and its Content-Security-Policy forbids it. Rows lead
@@ -24,5 +29,12 @@ std::string index_data(const std::vector<BatchRow>& rows, const BatchFacts& fact
 /// What is put into every index, embedded when the program is built (embed_assets.cmake).
 std::string_view index_style();
 std::string_view index_script();
+
+/// How residuals and faults went from log to log: by start time when all logs tell the date, else by name.
+/// Many logs share a point, so that no peak is lost. Empty for less than two judged logs.
+std::string index_trends(const std::vector<BatchRow>& rows);
+
+/// Whether all judged logs say when they were recorded.
+bool all_have_dates(const std::vector<BatchRow>& rows);
 
 }  // namespace faultline

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/batch/page/index_trends.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "lib/batch/page/index_page.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/core/text.hpp"
 #include "lib/explain/day_effects.hpp"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/batch/page/index_trends.hpp"
-
 #include <gtest/gtest.h>
 
-#include "lib/batch/page/index_thumbnail.hpp"
+#include "lib/batch/page/index_page.hpp"
 
 namespace faultline {
 namespace {
