@@ -11,9 +11,8 @@
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/text.hpp"
-#include "lib/golden/check_text.hpp"
+#include "lib/golden/check.hpp"
 #include "lib/golden/golden_folder.hpp"
-#include "lib/golden/run_json.hpp"
 
 namespace faultline {
 namespace {

@@ -8,8 +8,7 @@
 #include "apps/work/golden_work.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/outgoing/json_text.hpp"
-#include "lib/golden/check_text.hpp"
-#include "lib/golden/run_json.hpp"
+#include "lib/golden/check.hpp"
 
 namespace faultline {
 namespace {

@@ -13,10 +13,9 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/output_place.hpp"
-#include "lib/golden/check_text.hpp"
+#include "lib/golden/check.hpp"
 #include "lib/golden/default_tolerances.hpp"
 #include "lib/golden/golden_folder.hpp"
-#include "lib/golden/run_json.hpp"
 
 namespace faultline {
 namespace {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "apps/work/file_use.hpp"
-#include "lib/golden/accept.hpp"
 #include "lib/golden/check.hpp"
 #include "lib/golden/record.hpp"
 #include "lib/golden/replay.hpp"

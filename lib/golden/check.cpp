@@ -28,38 +28,44 @@ ObservedIdentification identification_of(const std::optional<ObservedIdentificat
   return identification ? *identification : ObservedIdentification{"not_run", "", {}, ""};
 }
 
-CheckedItem checked(const std::string& name, const Observation& expected, const Observation& actual,
-                    const ToleranceChain& chain) {
-  CheckedItem item{name,
-                   "",
+/// One log compared, unless its golden files are damaged.
+CheckedItem checked_log(const GoldenSet& set, const GoldenLog& log, const Observation& expected,
+                        const Observation& actual) {
+  CheckedItem item{log.name(),
+                   log.damage,
                    expected.verdict,
                    actual.verdict,
                    static_cast<int>(expected.events.size()),
                    static_cast<int>(actual.events.size()),
-                   compare(expected, actual, chain)};
+                   {}};
+  if (log.damage.empty()) item.comparison = compare(expected, actual, set.chain(log));
   return item;
 }
 
-CheckedItem checked(const ObservedIdentification& expected, const ObservedIdentification& actual,
-                    const ToleranceChain& chain) {
-  return {kIdentification, "", expected.status, actual.status, 0, 0, compare(expected, actual, chain)};
+/// What the set expects, as a run that says so.
+GoldenRun expected_run(const GoldenSet& set) {
+  GoldenRun run;
+  run.model_values = set.model_values;
+  for (const GoldenLog& log : set.logs) run.logs.push_back({log.name(), log.expected});
+  if (set.identification) run.identification = set.identification->expected;
+  return run;
 }
 
-/// The model compared; nothing where one side has no values.
-std::optional<CheckedItem> checked_model(const std::vector<ParameterValue>& expected,
-                                         const std::vector<ParameterValue>& actual, const GoldenSet& set) {
-  if (expected.empty() || actual.empty()) return std::nullopt;
-  return CheckedItem{kModelItem, "", "", "", 0, 0, compare(expected, actual, set.chain())};
-}
-
-/// One log compared, unless its golden files are damaged.
-CheckedItem checked_log(const GoldenSet& set, const GoldenLog& log, const Observation& expected,
-                        const Observation& actual) {
-  CheckedItem item = checked(log.name(), expected, actual, set.chain(log));
-  if (log.damage.empty()) return item;
-  item.damage = log.damage;
-  item.comparison = {};
-  return item;
+GoldenCheck checked(const GoldenSet& set, const GoldenRun& first, const GoldenRun& second) {
+  GoldenCheck check{said_by(first), said_by(second), {}};
+  for (const GoldenLog& log : set.logs)
+    check.items.push_back(
+        checked_log(set, log, observation_of(first, log.name()), observation_of(second, log.name())));
+  if (set.identification) {
+    const ObservedIdentification expected = identification_of(first.identification),
+                                 actual = identification_of(second.identification);
+    check.items.push_back({kIdentification, "", expected.status, actual.status, 0, 0,
+                           compare(expected, actual, set.chain(*set.identification))});
+  }
+  if (!first.model_values.empty() && !second.model_values.empty())
+    check.items.push_back(
+        {kModelItem, "", "", "", 0, 0, compare(first.model_values, second.model_values, set.chain())});
+  return check;
 }
 
 }  // namespace
@@ -74,33 +80,14 @@ bool GoldenCheck::damaged() const {
 }
 
 GoldenCheck check_golden(const GoldenSet& set, const GoldenRun& run) {
-  GoldenCheck check;
+  GoldenCheck check = checked(set, expected_run(set), run);
   check.expected_by = fmt::format("golden.toml (faultline {}, model {} {})", set.program_version,
                                   set.model_name, set.model.sha256.substr(0, 8));
-  check.actual_by = said_by(run);
-  for (const GoldenLog& log : set.logs)
-    check.items.push_back(checked_log(set, log, log.expected, observation_of(run, log.name())));
-  if (set.identification)
-    check.items.push_back(checked(set.identification->expected, identification_of(run.identification),
-                                  set.chain(*set.identification)));
-  if (std::optional<CheckedItem> model = checked_model(set.model_values, run.model_values, set))
-    check.items.push_back(std::move(*model));
   return check;
 }
 
 GoldenCheck compare_runs(const GoldenSet& set, const GoldenRun& first, const GoldenRun& second) {
-  GoldenCheck check;
-  check.expected_by = said_by(first);
-  check.actual_by = said_by(second);
-  for (const GoldenLog& log : set.logs)
-    check.items.push_back(
-        checked_log(set, log, observation_of(first, log.name()), observation_of(second, log.name())));
-  if (set.identification)
-    check.items.push_back(checked(identification_of(first.identification),
-                                  identification_of(second.identification), set.chain(*set.identification)));
-  if (std::optional<CheckedItem> model = checked_model(first.model_values, second.model_values, set))
-    check.items.push_back(std::move(*model));
-  return check;
+  return checked(set, first, second);
 }
 
 GoldenSet with_actual(GoldenSet set, const GoldenRun& run, const std::string& name) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "lib/golden/compare_events.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <utility>
 
 #include "lib/core/number_text.hpp"
 #include "lib/fault/label_text.hpp"
+#include "lib/golden/comparison.hpp"
 
 namespace faultline {
 namespace {
@@ -50,59 +50,34 @@ int nearest(const ObservedEvent& wanted, const std::vector<ObservedEvent>& event
   return best;
 }
 
-/// Notes what is not within its tolerance in one event.
-class PairComparison {
- public:
-  PairComparison(const ObservedEvent& expected, const ObservedEvent& actual, const ToleranceChain& tolerances)
-      : expected_(expected), actual_(actual), tolerances_(tolerances) {}
-
-  void compare_event() {
-    number("onset_s", expected_.onset_s, actual_.onset_s, std::fmin(expected_.onset_s, actual_.onset_s));
-    number("alarm_s", expected_.alarm_s, actual_.alarm_s, std::fmin(expected_.alarm_s, actual_.alarm_s));
-    number("end_s", expected_.end_s, actual_.end_s, std::fmin(expected_.end_s, actual_.end_s));
-    number("confidence", expected_.confidence, actual_.confidence, expected_.onset_s);
-  }
-
-  void compare_reasons() {
-    number("evidence", expected_.evidence, actual_.evidence, expected_.onset_s);
-    words("decided_by", expected_.decided_by, actual_.decided_by);
-    compare_opinion("mlp", expected_.opinions.mlp, actual_.opinions.mlp);
-    compare_opinion("rbfn", expected_.opinions.rbfn, actual_.opinions.rbfn);
-    words("could_also_be", names_of(expected_.could_also_be), names_of(actual_.could_also_be));
-  }
-
-  const std::vector<Difference>& differences() const { return differences_; }
-
- private:
-  void number(const char* channel, double wanted, double got, double time) {
-    const Tolerance tolerance = tolerance_of(tolerances_, channel, channel);
-    if (tolerance.agree(wanted, got)) return;
-    differences_.push_back(
-        {channel, time, digits_text(wanted, 6), digits_text(got, 6), tolerance.allowed(wanted)});
-  }
-
-  void words(const char* channel, const std::string& wanted, const std::string& got) {
-    if (wanted != got) differences_.push_back({channel, expected_.onset_s, wanted, got, kNoNumber});
-  }
-
-  void compare_opinion(const std::string& network, const Opinion& wanted, const Opinion& got) {
-    words(network.c_str(), name_of(wanted.label), name_of(got.label));
-    if (wanted.label == got.label)
-      number((network + "_confidence").c_str(), wanted.confidence, got.confidence, expected_.onset_s);
-  }
-
-  const ObservedEvent& expected_;
-  const ObservedEvent& actual_;
-  const ToleranceChain& tolerances_;
-  std::vector<Difference> differences_;
-};
-
+/// What is not within its tolerance in one event: times and confidence, then the reasons.
 std::vector<Difference> compare_pair(const ObservedEvent& expected, const ObservedEvent& actual,
                                      const ToleranceChain& tolerances) {
-  PairComparison pair(expected, actual, tolerances);
-  pair.compare_event();
-  pair.compare_reasons();
-  return pair.differences();
+  Comparison found;
+  const auto number = [&](const std::string& channel, double wanted, double got, double time) {
+    compare_number(channel, channel, wanted, got, time, tolerances, found);
+  };
+  const auto time = [&](const char* channel, double wanted, double got) {
+    number(channel, wanted, got, std::fmin(wanted, got));
+  };
+  const auto words = [&](const std::string& channel, const std::string& wanted, const std::string& got) {
+    if (wanted != got) found.differences.push_back({channel, expected.onset_s, wanted, got, kNoNumber});
+  };
+  const auto opinion = [&](const std::string& network, const Opinion& wanted, const Opinion& got) {
+    words(network, name_of(wanted.label), name_of(got.label));
+    if (wanted.label == got.label)
+      number(network + "_confidence", wanted.confidence, got.confidence, expected.onset_s);
+  };
+  time("onset_s", expected.onset_s, actual.onset_s);
+  time("alarm_s", expected.alarm_s, actual.alarm_s);
+  time("end_s", expected.end_s, actual.end_s);
+  number("confidence", expected.confidence, actual.confidence, expected.onset_s);
+  number("evidence", expected.evidence, actual.evidence, expected.onset_s);
+  words("decided_by", expected.decided_by, actual.decided_by);
+  opinion("mlp", expected.opinions.mlp, actual.opinions.mlp);
+  opinion("rbfn", expected.opinions.rbfn, actual.opinions.rbfn);
+  words("could_also_be", names_of(expected.could_also_be), names_of(actual.could_also_be));
+  return std::move(found.differences);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "lib/core/number_text.hpp"
-#include "lib/golden/compare_events.hpp"
 
 namespace faultline {
 namespace {
@@ -28,16 +27,6 @@ void compare_rows(std::int64_t expected, std::int64_t actual, bool may_differ, C
     comparison.differences.push_back(
         {"rows", kNoNumber, fmt::format("{}", expected), fmt::format("{}", actual), 0.0});
   comparison.lines.push_back({fmt::format("rows {}", expected), fmt::format("rows {}", actual), differs});
-}
-
-/// Adds a difference when `got` is out of tolerance; whether it is.
-bool compare_number(const std::string& channel, const std::string& family, double wanted, double got,
-                    double time, const ToleranceChain& tolerances, Comparison& comparison) {
-  const Tolerance tolerance = tolerance_of(tolerances, channel, family);
-  if (tolerance.agree(wanted, got)) return false;
-  comparison.differences.push_back(
-      {channel, time, brief_value(wanted), brief_value(got), tolerance.allowed(wanted)});
-  return true;
 }
 
 std::string line_of(const JointResidual& r) {
@@ -128,8 +117,6 @@ void compare_times(const Trace& expected, const Trace& actual, const std::vector
   comparison.lines.push_back({expected_text, actual_text, true});
 }
 
-std::string trace_value(double number) { return digits_text(number, 6); }
-
 /// Compares what was predicted at the same times, channel by channel: of each that differs, the first time
 /// and both values. The first time that only one trace has is a difference unless the length may differ.
 void compare_traces(const Trace& expected, const Trace& actual, const ToleranceChain& tolerances,
@@ -151,9 +138,9 @@ void compare_traces(const Trace& expected, const Trace& actual, const ToleranceC
     const auto [i, j] = points[found.first];
     const double wanted = expected.values[c][i], got = there[j], time = expected.time[i];
     comparison.differences.push_back(
-        {channel, time, trace_value(wanted), trace_value(got), tolerance.allowed(wanted)});
+        {channel, time, brief_value(wanted), brief_value(got), tolerance.allowed(wanted)});
     const auto line = [&, i = i](double number) {
-      return fmt::format("{} predicted {} at {} s", channel, trace_value(number), expected.time[i]);
+      return fmt::format("{} predicted {} at {} s", channel, brief_value(number), expected.time[i]);
     };
     comparison.lines.push_back(
         {line(wanted), fmt::format("{} ({} of {} points differ)", line(got), found.count, points.size()),
@@ -161,26 +148,23 @@ void compare_traces(const Trace& expected, const Trace& actual, const ToleranceC
   }
 }
 
+/// Of a model; an identified one has a standard deviation, or is not identifiable.
 std::string value_line(const ParameterValue& p) {
   return fmt::format("{} {} {}", p.name, brief_value(p.value), p.unit);
 }
 
 std::string line_of(const ParameterValue& p) {
-  if (std::isnan(p.std))
-    return fmt::format("{} {} {} (not identifiable)", p.name, brief_value(p.value), p.unit);
-  return fmt::format("{} {} {}, std {}", p.name, brief_value(p.value), p.unit, brief_value(p.std));
+  return value_line(p) + (std::isnan(p.std) ? " (not identifiable)" : ", std " + brief_value(p.std));
 }
 
-/// "threshold" of "threshold_locked_2".
-std::string family_of_value(const std::string& name) { return name.substr(0, name.find('_')); }
+void compare_missing(const ParameterValue& expected, Comparison& comparison) {
+  comparison.differences.push_back({expected.name, kNoNumber, brief_value(expected.value), "", kNoNumber});
+  comparison.lines.push_back({line_of(expected), "", true});
+}
 
 void compare_parameter(const ParameterValue& expected, const ParameterValue* actual,
                        const ToleranceChain& tolerances, Comparison& comparison) {
-  if (!actual) {
-    comparison.differences.push_back({expected.name, kNoNumber, brief_value(expected.value), "", kNoNumber});
-    comparison.lines.push_back({line_of(expected), "", true});
-    return;
-  }
+  if (!actual) return compare_missing(expected, comparison);
   bool differs =
       compare_number(expected.name, "parameter", expected.value, actual->value, NAN, tolerances, comparison);
   differs |= compare_number(expected.name + "_std", "parameter_std", expected.std, actual->std, NAN,
@@ -190,12 +174,10 @@ void compare_parameter(const ParameterValue& expected, const ParameterValue* act
 
 void compare_value(const ParameterValue& expected, const ParameterValue* actual,
                    const ToleranceChain& tolerances, Comparison& comparison) {
-  if (!actual) {
-    compare_parameter(expected, nullptr, tolerances, comparison);
-    return;
-  }
-  const bool differs = compare_number(expected.name, family_of_value(expected.name), expected.value,
-                                      actual->value, NAN, tolerances, comparison);
+  if (!actual) return compare_missing(expected, comparison);
+  const std::string family = expected.name.substr(0, expected.name.find('_'));  // of "threshold_locked_2"
+  const bool differs =
+      compare_number(expected.name, family, expected.value, actual->value, NAN, tolerances, comparison);
   comparison.lines.push_back({value_line(expected), value_line(*actual), differs});
 }
 
@@ -210,6 +192,15 @@ void compare_new(const std::vector<ParameterValue>& expected, const std::vector<
 }
 
 }  // namespace
+
+bool compare_number(const std::string& channel, const std::string& family, double wanted, double got,
+                    double time, const ToleranceChain& tolerances, Comparison& comparison) {
+  const Tolerance tolerance = tolerance_of(tolerances, channel, family);
+  if (tolerance.agree(wanted, got)) return false;
+  comparison.differences.push_back(
+      {channel, time, brief_value(wanted), brief_value(got), tolerance.allowed(wanted)});
+  return true;
+}
 
 Comparison compare(const Observation& expected, const Observation& actual, const ToleranceChain& tolerances) {
   Comparison comparison;

@@ -49,7 +49,16 @@ Comparison compare(const ObservedIdentification& expected, const ObservedIdentif
 Comparison compare(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
                    const ToleranceChain& tolerances);
 
+/// Adds a difference when `got` is out of tolerance; returns whether it is.
+bool compare_number(const std::string& channel, const std::string& family, double wanted, double got,
+                    double time, const ToleranceChain& tolerances, Comparison& comparison);
+
 /// The earliest difference that has a time; else the first. Null when same.
 const Difference* first_divergence(const Comparison& comparison);
+
+/// Pairs events of the same kind and joint, the nearest onsets first, and compares their times and
+/// confidence; what has no partner is missing or unexpected.
+Comparison compare_events(const std::vector<ObservedEvent>& expected,
+                          const std::vector<ObservedEvent>& actual, const ToleranceChain& tolerances);
 
 }  // namespace faultline

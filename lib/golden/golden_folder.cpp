@@ -14,7 +14,6 @@
 #include "lib/core/error.hpp"
 #include "lib/core/files/inner_file.hpp"
 #include "lib/core/hash.hpp"
-#include "lib/model/model_files.hpp"
 
 namespace faultline {
 namespace {
@@ -92,8 +91,7 @@ GoldenSet load_golden(const std::string& folder) {
 }
 
 ModelAndCases load_model_and_cases(const std::string& model, const std::string& cases) {
-  ModelFiles files = load_model_files(model, cases);
-  return {std::move(files.model), std::move(files.cases), fs::path(model).filename().string()};
+  return {load_model_files(model, cases), fs::path(model).filename().string()};
 }
 
 ModelAndCases load_golden_model(const std::string& folder, const GoldenSet& set) {

@@ -22,7 +22,6 @@ GoldenSet load_golden(const std::string& folder);
 ModelAndCases load_golden_model(const std::string& folder, const GoldenSet& set);
 ModelAndCases load_model_and_cases(const std::string& model, const std::string& cases);
 
-/// All logs of the set, as replay() takes them.
 std::vector<ReplayLog> replay_logs(const std::string& folder, const GoldenSet& set);
 
 /// Writes the traces of `run`'s logs that `set` names (setting their hash), then golden.toml, then removes

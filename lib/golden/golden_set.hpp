@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ struct GoldenLog {
   std::string damage;  ///< what is wrong with its files; empty when nothing is
 
   /// File name without folders.
-  std::string name() const;
+  std::string name() const { return std::filesystem::path(log.path).filename().string(); }
 };
 
 struct GoldenIdentification {
@@ -49,9 +50,11 @@ struct GoldenSet {
   std::optional<GoldenIdentification> identification;
   std::vector<GoldenLog> logs;
 
-  ToleranceChain chain(const GoldenLog& log) const;
-  ToleranceChain chain(const GoldenIdentification& identification) const;
-  ToleranceChain chain() const;
+  ToleranceChain chain(const GoldenLog& log) const { return {&log.tolerances, &tolerances}; }
+  ToleranceChain chain(const GoldenIdentification& identified) const {
+    return {&identified.tolerances, &tolerances};
+  }
+  ToleranceChain chain() const { return {&tolerances}; }
 };
 
 /// golden.toml (docs/golden.md): the same set gives the same text.

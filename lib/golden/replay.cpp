@@ -10,10 +10,9 @@
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
 #include "lib/diagnose/diagnose.hpp"
-#include "lib/golden/model_values.hpp"
+#include "lib/golden/default_tolerances.hpp"
 #include "lib/golden/trace_tap.hpp"
 #include "lib/identify/identify.hpp"
-#include "lib/model/model_files.hpp"
 
 namespace faultline {
 namespace {
@@ -44,7 +43,9 @@ Observation observe_file(const ReplayLog& log, const ModelAndCases& subject, con
                          int trace_points) {
   try {
     const auto source = open(log.path, subject.model);
-    return observe(*source, subject.model, subject.cases, trace_points);
+    TraceTap tap(*source, subject.model.residual, trace_points);
+    const Diagnosis diagnosis = diagnose(tap, subject.model, subject.cases);
+    return observed(diagnosis, tap.trace());
   } catch (const Error& error) {
     if (error.code() == ErrorCode::internal) throw;
     Observation unusable;
@@ -77,12 +78,6 @@ class Counter {
 };
 
 }  // namespace
-
-Observation observe(LogSource& log, const Model& model, const CaseBase& cases, int trace_points) {
-  TraceTap tap(log, model.residual, trace_points);
-  const Diagnosis diagnosis = diagnose(tap, model, cases);
-  return observed(diagnosis, tap.trace());
-}
 
 ObservedIdentification observe_identification(const std::vector<ReplayLog>& logs, const Model& model,
                                               const LogOpener& open, int threads) {

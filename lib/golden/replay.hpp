@@ -6,20 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "lib/cases/case_base.hpp"
 #include "lib/core/progress.hpp"
 #include "lib/golden/observation.hpp"
 #include "lib/log/log_source.hpp"
-#include "lib/model/model.hpp"
+#include "lib/model/model_files.hpp"
 
 namespace faultline {
 
 /// Opens a log file as the model's robot file says; given by the program, as the library knows no format.
 using LogOpener = std::function<std::unique_ptr<LogSource>(const std::string& path, const Model& model)>;
 
-struct ModelAndCases {
-  Model model;
-  CaseBase cases;
+struct ModelAndCases : ModelFiles {
   std::string name;  ///< file name of the model
 };
 
@@ -33,9 +30,6 @@ struct ReplayOptions {
   int trace_points = 500;
   int threads = 0;  ///< 0 = one a core; changes no byte of the result
 };
-
-/// Diagnoses one log and keeps what golden logs compare. Throws Error(input) when it cannot be processed.
-Observation observe(LogSource& log, const Model& model, const CaseBase& cases, int trace_points);
 
 /// Diagnoses all logs and identifies the model's robot from those marked for it (nothing when none is). A log
 /// that cannot be processed is an Observation of verdict "unusable", with the reason.

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/golden/run_json.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
@@ -9,6 +7,7 @@
 #include "lib/core/utf8.hpp"
 #include "lib/diagnose/fault_event_fields.hpp"
 #include "lib/fault/label_fields.hpp"
+#include "lib/golden/check.hpp"
 
 namespace faultline {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "lib/core/error.hpp"
-#include "lib/golden/trace.hpp"
+#include "lib/golden/observation.hpp"
 
 namespace faultline {
 namespace {

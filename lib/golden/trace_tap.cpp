@@ -22,12 +22,7 @@ Transitions columns_of(const Transitions& all, const std::vector<Eigen::Index>& 
   for (const Eigen::Index column : columns) some.row.push_back(all.row[static_cast<std::size_t>(column)]);
   some.time = all.time(columns);
   some.duration = all.duration(columns);
-  some.q = all.q(Eigen::all, columns);
-  some.dq = all.dq(Eigen::all, columns);
-  some.tau = all.tau(Eigen::all, columns);
-  some.mean_tau = all.mean_tau(Eigen::all, columns);
-  some.next_q = all.next_q(Eigen::all, columns);
-  some.next_dq = all.next_dq(Eigen::all, columns);
+  for_each_matrix(some, all, [&](auto& mine, const auto& theirs) { mine = theirs(Eigen::all, columns); });
   return some;
 }
 

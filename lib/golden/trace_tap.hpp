@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "lib/golden/trace.hpp"
+#include "lib/golden/observation.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/residual/residual_generator.hpp"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/golden/accept.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
+#include "lib/golden/record.hpp"
 #include "tests/apps/golden_copy.hpp"
 
 namespace faultline {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/golden/compare_events.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "lib/golden/comparison.hpp"
 
 namespace faultline {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
-#include "lib/golden/trace.hpp"
+#include "lib/golden/observation.hpp"
 
 namespace faultline {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "lib/golden/check.hpp"
 #include "lib/golden/golden_set.hpp"
-#include "lib/golden/run_json.hpp"
-#include "lib/golden/trace.hpp"
+#include "lib/golden/observation.hpp"
 #include "tests/fuzz/readers/feeding.hpp"
 #include "tests/fuzz/readers/readers.hpp"
 
