@@ -9,7 +9,7 @@
 #include "apps/options.hpp"
 #include "apps/terminal.hpp"
 #include "apps/work/simulation.hpp"
-#include "lib/reproduce/page/figure_text.hpp"
+#include "lib/reproduce/page/result_table.hpp"
 
 namespace faultline {
 namespace {

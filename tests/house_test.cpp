@@ -25,7 +25,7 @@ constexpr int kLongFile = 300;
 constexpr double kLongFileShare = 0.05;
 constexpr int kLongestFunction = 60;
 constexpr int kMostFiles = 40;
-constexpr int kMostWithOneUser = 37;  // headers
+constexpr int kMostWithOneUser = 29;  // headers
 
 const fs::path kRoot(FAULTLINE_SOURCE_DIR);
 

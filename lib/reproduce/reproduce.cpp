@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/reproduce.hpp"
-
 #include <iterator>
 
-#include "lib/reproduce/classifier/classifier_study.hpp"
-#include "lib/reproduce/generator/generator_study.hpp"
-#include "lib/reproduce/page/trade_off_figures.hpp"
-#include "lib/reproduce/runs/run_study.hpp"
+#include "lib/reproduce/classifier/classifier_results.hpp"
+#include "lib/reproduce/generator/generator_measurements.hpp"
+#include "lib/reproduce/page/reproduction.hpp"
+#include "lib/reproduce/runs/run_tables.hpp"
 
 namespace faultline {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "lib/reproduce/protocol/motion_generator.hpp"
+#include "lib/reproduce/runs/alarm_score.hpp"
 #include "lib/reproduce/runs/criterion_sweep.hpp"
-#include "lib/reproduce/runs/monitored_runs.hpp"
 #include "lib/reproduce/runs/run_condition.hpp"
 #include "lib/reproduce/runs/sample_detector.hpp"
 

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/progress.hpp"
 #include "lib/reproduce/classifier/classifier_bench.hpp"
+#include "lib/reproduce/page/reproduction.hpp"
 #include "lib/reproduce/page/result_table.hpp"
 
 namespace faultline {
@@ -52,5 +54,9 @@ class ClassifierResults {
   int seeds_;
   std::vector<ClassifierFindings> findings_;
 };
+
+/// The paper's tables 1 and 2: the training set of the classifier of single samples, its errors as the paper
+/// built it, what each departure buys, and what the true model could do at best. All three controllers.
+StudyResult classifier_study(const ReproduceOptions& options = {}, const Progress& progress = {});
 
 }  // namespace faultline

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/classifier/classifier_study.hpp"
-
 #include <limits>
 #include <mutex>
 

@@ -3,7 +3,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/reproduce/classifier/fault_trajectories.hpp"
@@ -12,22 +15,20 @@
 namespace faultline {
 namespace {
 
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kRidge = 1e-6;  // share of each input's power
+constexpr std::size_t kNeighbours = 20;
+constexpr double kShareOfAll = 0.01;  // of the overall covariance, so that the local one has full rank
+
 using Vector = JointVector;
 
 constexpr int kSteps = 10;  // of Runge-Kutta, over a sample
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kStep = 1e-4;      // of the finite differences, in half ranges
 constexpr double kRounding = 1e-6;  // half ranges: what integration and linear model leave at least
 constexpr double kPosteriorLinearTorque = 0.5;
-
-VectorXd half_of_state(const HalfRanges& ranges) {
-  VectorXd half(ranges.q.size() + ranges.dq.size());
-  half << ranges.q, ranges.dq;
-  return half;
-}
 
 /// One pattern: the state and torque at its start, and the torque at its end as far as it is known.
 struct Sample {
@@ -114,6 +115,34 @@ double log_likelihood(const TransitionModel& model, const Sample& s, const Vecto
 
 }  // namespace
 
+LocalGaussian fit_local_gaussian(const MatrixXd& inputs, const MatrixXd& outputs) {
+  LocalGaussian gaussian;
+  const double count = static_cast<double>(inputs.cols());
+  MatrixXd gram = inputs * inputs.transpose();
+  gram.diagonal() *= 1.0 + kRidge;
+  gaussian.trend = gram.ldlt().solve(inputs * outputs.transpose()).transpose();
+  gaussian.scale = (inputs.rowwise().norm() / std::sqrt(count)).cwiseMax(1e-12);
+  gaussian.inputs = gaussian.scale.cwiseInverse().asDiagonal() * inputs;
+  gaussian.rest = outputs - gaussian.trend * inputs;
+  gaussian.covariance = gaussian.rest * gaussian.rest.transpose() / count;
+  return gaussian;
+}
+
+VectorXd mean_at(const LocalGaussian& gaussian, const VectorXd& input) { return gaussian.trend * input; }
+
+MatrixXd covariance_at(const LocalGaussian& gaussian, const VectorXd& input) {
+  const VectorXd scaled = input.cwiseQuotient(gaussian.scale);
+  const VectorXd distance = (gaussian.inputs.colwise() - scaled).colwise().squaredNorm();
+  std::vector<int> order(distance.size());
+  std::iota(order.begin(), order.end(), 0);
+  const std::size_t count = std::min(kNeighbours, order.size());
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count - 1), order.end(),
+                   [&](int a, int b) { return distance[a] < distance[b]; });
+  order.resize(count);
+  const MatrixXd near = gaussian.rest(Eigen::all, order);
+  return near * near.transpose() / static_cast<double>(count) + kShareOfAll * gaussian.covariance;
+}
+
 SampleModel::SampleModel(const Robot& robot, ControllerVariant controller, TorqueBetween between)
     : dynamics_(robot.chain),
       reading_(controller),
@@ -182,7 +211,7 @@ TransitionModel learn_transition_model(SampleModel sample_model, const FaultPatt
 
 MatrixXd transition_posterior(const TransitionModel& model, const Transitions& transitions,
                               const HalfRanges& ranges, double sigma) {
-  const VectorXd half = half_of_state(ranges);
+  const VectorXd half = ranges.state();
   const Eigen::Array4d prior = table_1_prior();
   MatrixXd posterior(kFaultClasses, transitions.count());
   for (int i = 0; i < transitions.count(); ++i) {

@@ -113,8 +113,6 @@ IdentifiedBench identified_bench(const Experiment& experiment, const GeneratorCo
 
 }  // namespace
 
-GeneratorScale full_scale() { return {}; }
-
 GeneratorScale quick_scale() {
   GeneratorScale scale{.test_trajectories = 40,
                        .trajectories = 60,

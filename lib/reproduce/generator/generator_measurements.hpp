@@ -10,9 +10,8 @@
 
 #include "lib/core/progress.hpp"
 #include "lib/reproduce/generator/generator_bench.hpp"
-#include "lib/reproduce/generator/identified_robot.hpp"
+#include "lib/reproduce/page/reproduction.hpp"
 #include "lib/reproduce/page/result_table.hpp"
-#include "lib/reproduce/protocol/reproduce_options.hpp"
 
 namespace faultline {
 
@@ -28,7 +27,6 @@ struct GeneratorScale {
   LearningLogs slow_logs{};
   LearningLogs fast_logs{.count = 1, .duration_s = 20.0, .sample_period_s = 0.001, .max_rows = 6000};
 };
-GeneratorScale full_scale();
 GeneratorScale quick_scale();
 
 /// A bench with what identification made of its robot.
@@ -87,7 +85,6 @@ struct GeneratorMeasurements {
   int find(const std::string& name) const;
 };
 
-/// What is compared, and on which robot.
 struct GeneratorComparison {
   Robot robot;
   std::vector<GeneratorCandidate> candidates;
@@ -98,5 +95,10 @@ struct GeneratorComparison {
 /// Identifies the robot under each controller and seed and measures all candidates on it.
 GeneratorMeasurements measure_generators(const GeneratorComparison& comparison,
                                          const ReproduceOptions& options, const Progress& progress);
+
+/// Section V.A of the paper: how well the fault-free motion is predicted one sample ahead. The paper's
+/// network by its own trainer and by Levenberg-Marquardt, its variants, physics and hybrid; tables
+/// generator_mse, generator_by_output, generator_friction.
+StudyResult generator_study(const ReproduceOptions& options, const Progress& progress = {});
 
 }  // namespace faultline

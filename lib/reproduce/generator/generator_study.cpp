@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/generator/generator_study.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -65,12 +63,7 @@ network takes part of that and leaves {}. Under pd one timing for all joints doe
 between samples; identified from 73 ms, masses are distorted by the fit, and the network corrects that for the
 motion it was trained on but not in runs, where set-points jump between samples.)";
 
-/// 3.4e-3 rather than 3.4e-03.
-std::string scientific(double value) {
-  std::string text = fmt::format("{:.1e}", value);
-  if (const auto zero = text.find("e-0"); zero != std::string::npos) text.erase(zero + 2, 1);
-  return text;
-}
+std::string scientific(double value) { return figure_text(value, FigureStyle::scientific); }
 
 double mean_mse(const GeneratorMeasurements& measured, const char* name, ControllerVariant controller,
                 GeneratorTest test) {
@@ -112,10 +105,6 @@ std::string generator_friction_text(const GeneratorMeasurements& measured, const
                      clean(kPhysicsIdentified), clean(kHybrid));
 }
 
-std::vector<FigureColumn> columns_of_tests() {
-  return {{"clean"}, {"sigma 0.01"}, {"sigma 0.1"}, {"clean, runs of moves"}};
-}
-
 std::optional<Measured> printed(double figure) {
   if (std::isnan(figure)) return std::nullopt;
   return Measured{{figure}};
@@ -155,8 +144,8 @@ ResultTable table_of(const GeneratorMeasurements& measured, std::string id, std:
   table.id = std::move(id);
   table.title = std::move(title);
   table.label_columns = {"generator", "controller", "patterns"};
-  table.figure_columns = columns_of_tests();
-  table.figure_columns.push_back({"study, clean"});
+  table.figure_columns = {
+      {"clean"}, {"sigma 0.01"}, {"sigma 0.1"}, {"clean, runs of moves"}, {"study, clean"}};
   table.rows = rows_of(measured);
   return table;
 }
@@ -199,7 +188,6 @@ ResultTable generator_by_output_table(const GeneratorMeasurements& measured) {
   return table;
 }
 
-/// Every candidate of the robot with friction.
 ResultTable generator_friction_table(const GeneratorMeasurements& measured, const GeneratorScale& scale) {
   ResultTable table = table_of(measured, "generator_friction", "Residual generators, robot with friction");
   table.text = generator_friction_text(measured, scale);
@@ -237,7 +225,7 @@ std::vector<Goal> goals_of(const GeneratorMeasurements& smooth, const GeneratorM
 
 StudyResult generator_study(const ReproduceOptions& options, const Progress& progress) {
   options.check();
-  const GeneratorScale scale = options.quick ? quick_scale() : full_scale();
+  const GeneratorScale scale = options.quick ? quick_scale() : GeneratorScale{};
   const GeneratorMeasurements smooth = measure_generators({bench_robot(), paper_candidates(scale), scale},
                                                           options, part_of(progress, 0.0, 0.7));
   const GeneratorMeasurements friction =

@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "lib/core/progress.hpp"
 #include "lib/report/plot/line_plot.hpp"
 #include "lib/reproduce/page/result_table.hpp"
-#include "lib/reproduce/protocol/reproduce_options.hpp"
 
 namespace faultline {
+
+struct ReproduceOptions {
+  int seeds = 5;           ///< experiments, each with its own data and start weights
+  std::uint64_t seed = 1;  ///< of the first; the others follow
+  bool quick = false;      ///< fewer patterns, runs and hours: orders of magnitude within a minute
+  int threads = 0;         ///< 0 = one a core; changes no number
+
+  /// Throws Error(usage) naming the field, its value and its bound.
+  void check() const;
+};
 
 /// A picture with its stable name, which is also its file's.
 struct Figure {
@@ -25,9 +36,19 @@ struct Reproduction {
   std::vector<Goal> goals;
 };
 
+/// Runs the whole reproduction; the same options but `threads` give the same numbers.
+Reproduction reproduce(const ReproduceOptions& options = {}, const Progress& progress = {});
+
 /// A page with all of it; pictures are taken from `<id>.svg` beside it.
 std::string reproduction_markdown(const Reproduction& reproduction);
 /// Schema "faultline/reproduction/1".
 std::string reproduction_json(const Reproduction& reproduction);
+
+/// Whether pictures stand for this table on a page: how the criterion's g trades false alarms for delay.
+bool is_trade_off(const ResultTable& table);
+
+/// Pictures of the trade-off tables, whose label columns are detector ("recipe, network") and g: one a
+/// recipe, the figure columns over g in a panel each, a curve a network.
+std::vector<Figure> trade_off_figures(const std::vector<ResultTable>& tables);
 
 }  // namespace faultline

@@ -4,9 +4,8 @@
 #include <string>
 
 #include "lib/core/version.hpp"
-#include "lib/reproduce/page/figure_text.hpp"
 #include "lib/reproduce/page/reproduction.hpp"
-#include "lib/reproduce/page/trade_off_figures.hpp"
+#include "lib/reproduce/page/result_table.hpp"
 
 namespace faultline {
 namespace {

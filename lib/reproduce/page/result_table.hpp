@@ -16,7 +16,6 @@ struct Measured {
   double spread() const;  ///< standard deviation over those seeds; NaN for fewer than two
 };
 
-/// How a figure is written.
 enum class FigureStyle {
   scientific,  ///< 3.4e-3
   percent,     ///< a share 0 to 1, written as 99.7 %
@@ -59,10 +58,14 @@ struct Goal {
   bool reached() const;  ///< of the mean over seeds
 };
 
-/// What one study of the reproduction gives.
 struct StudyResult {
   std::vector<ResultTable> tables;
   std::vector<Goal> goals;
 };
+
+/// "3.4e-3", "99.70 %" or "0.15" by the style; "-" for NaN.
+std::string figure_text(double value, FigureStyle style);
+/// The mean, and ± the spread where there is one.
+std::string figure_text(const Measured& measured, FigureStyle style);
 
 }  // namespace faultline

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/page/trade_off_figures.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <string>
+
+#include "lib/reproduce/page/reproduction.hpp"
 
 namespace faultline {
 namespace {

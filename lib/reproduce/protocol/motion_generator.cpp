@@ -68,19 +68,13 @@ TrainedGenerator train_generator(const Experiment& experiment, const GeneratorRe
 }
 
 Eigen::VectorXd normalised_mse_by_output(const Eigen::MatrixXd& error, const HalfRanges& ranges) {
-  Eigen::VectorXd half(ranges.q.size() + ranges.dq.size());
-  half << ranges.q, ranges.dq;
-  return (half.cwiseInverse().asDiagonal() * error).array().square().rowwise().mean();
+  return (ranges.state().cwiseInverse().asDiagonal() * error).array().square().rowwise().mean();
 }
 
 Eigen::VectorXd normalised_mse_by_output(const ResidualGenerator& generator, const Transitions& test,
                                          const HalfRanges& ranges) {
   return normalised_mse_by_output(measured_change(generator, test) - predicted_change(generator, test),
                                   ranges);
-}
-
-double normalised_mse(const ResidualGenerator& generator, const Transitions& test, const HalfRanges& ranges) {
-  return normalised_mse_by_output(generator, test, ranges).mean();
 }
 
 }  // namespace faultline

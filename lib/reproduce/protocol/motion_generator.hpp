@@ -40,9 +40,8 @@ struct TrainedGenerator {
 };
 TrainedGenerator train_generator(const Experiment& experiment, const GeneratorRecipe& recipe);
 
-/// Mean squared error over all six outputs, in squares of half ranges (the paper's measure).
-double normalised_mse(const ResidualGenerator& generator, const Transitions& test, const HalfRanges& ranges);
-/// The same by output: q1..qn, dq1..dqn; of an error given as 2 joints x transitions, or of a generator.
+/// Mean squared error of each output (q1..qn, dq1..dqn), in squares of half ranges (the paper's measure is
+/// the mean of them); of an error given as 2 joints x transitions, or of a generator.
 Eigen::VectorXd normalised_mse_by_output(const Eigen::MatrixXd& error, const HalfRanges& ranges);
 Eigen::VectorXd normalised_mse_by_output(const ResidualGenerator& generator, const Transitions& test,
                                          const HalfRanges& ranges);

@@ -84,6 +84,12 @@ Robot bench_robot_with_friction() {
   return robot;
 }
 
+Eigen::VectorXd HalfRanges::state() const {
+  Eigen::VectorXd half(q.size() + dq.size());
+  half << q, dq;
+  return half;
+}
+
 HalfRanges half_ranges(const Robot& robot, ControllerVariant controller) {
   Log log;
   for (int i = 0; i < 100; ++i)

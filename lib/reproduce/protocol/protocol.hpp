@@ -43,6 +43,8 @@ Robot bench_robot_with_friction();
 /// Half the range of each signal, by which the paper normalises: rad or m, and per s; N m or N.
 struct HalfRanges {
   Eigen::VectorXd q, dq, tau;
+
+  Eigen::VectorXd state() const;  ///< of q, then of dq
 };
 /// Of healthy motion under this controller: of q as asked for, of dq and tau as found in 100 trajectories of
 /// 25 samples, the size of the paper's training set.

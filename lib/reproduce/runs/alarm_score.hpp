@@ -1,12 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
-#include "lib/reproduce/runs/monitored_runs.hpp"
+#include "lib/reproduce/protocol/protocol.hpp"
 
 namespace faultline {
+
+/// A run to be watched, with its truth.
+struct ExperimentRun {
+  Log log;
+  FaultLabel fault;  ///< none, or a free-swinging joint
+  double onset_s = std::numeric_limits<double>::infinity();
+
+  bool faulty() const { return fault.kind != FaultKind::none; }
+};
+
+struct RunSet {
+  int faulty = 300;            ///< runs, joints 1, 2, 3 in turn
+  double fault_free_h = 10.0;  ///< besides
+  double hour_s = 3600.0;      ///< length of a fault-free run; the last one is what is left
+  double earliest_onset_s = 2.0;
+  double latest_onset_s = 20.0;  ///< the onset is uniform in between
+  double after_onset_s = 6.0;    ///< the run goes on for this long, unless the freed robot runs away
+};
+
+/// Without noise: the faulty runs, then the fault-free ones.
+std::vector<ExperimentRun> monitored_runs(const Experiment& experiment, const RunSet& set, SeedUse use);
+/// The same runs as measured with noise of `sigma` half ranges; `experiment` and `use` as when they were
+/// made.
+std::vector<ExperimentRun> with_noise(std::vector<ExperimentRun> runs, const Experiment& experiment,
+                                      double sigma, SeedUse use);
 
 /// What a detector says, and when it said so first.
 struct Alarm {
@@ -40,5 +67,21 @@ struct AlarmScore {
   double false_alarms_per_hour() const;
   double delay_quantile(double share) const;  ///< s, of the detected runs; NaN for none
 };
+
+/// A difference with its 95 % interval.
+struct PairedDifference {
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+
+/// Of a value that each run has under two detectors: mean of `ours` minus mean of `theirs`, the interval by
+/// drawing runs with replacement (paired bootstrap). Equal lengths; NaN for no runs.
+PairedDifference paired_difference(std::span<const double> ours, std::span<const double> theirs,
+                                   std::uint64_t seed = 1, int draws = 2000);
+
+/// Per run: onset to alarm, `missed_s` where there was none.
+std::vector<double> delays_of(const AlarmScore& score, double missed_s);
+/// Per run: 1 where the fault was found and its joint (or kind and joint) named right.
+std::vector<double> joints_right(const AlarmScore& score);
+std::vector<double> kinds_right(const AlarmScore& score);
 
 }  // namespace faultline

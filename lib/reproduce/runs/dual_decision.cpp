@@ -15,7 +15,6 @@ using Eigen::Index;
 
 constexpr int kOfEachRun = 3;  // suspicions of a faulty run that become cases
 
-/// The running sums of one network.
 class RunningSums {
  public:
   explicit RunningSums(Eigen::MatrixXd odds)

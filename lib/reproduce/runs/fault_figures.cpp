@@ -3,7 +3,7 @@
 
 #include "lib/reproduce/protocol/motion_generator.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
-#include "lib/reproduce/runs/run_study.hpp"
+#include "lib/reproduce/runs/run_tables.hpp"
 #include "lib/reproduce/runs/sample_detector.hpp"
 #include "lib/residual/residuals.hpp"
 

@@ -32,7 +32,6 @@ constexpr const char* kNetworks[] = {"MLP", "RBFN", "average of both"};
 const std::vector<double> kThresholds = {7, 10, 14, 20, 28, 40, 56, 80, 110, 160, 220};
 constexpr double kName_s = 0.6;
 
-/// The runs of one controller and noise.
 struct ConditionRuns {
   std::vector<ExperimentRun> training, tuning, test;
 };
@@ -138,11 +137,9 @@ void detect_with_networks(const SampleDetector& detector, const ConditionRuns& r
 
 std::vector<AlarmScore> scores(const FilteredRobot& robot, std::span<const ExperimentRun> runs,
                                const std::vector<double>& thresholds) {
-  std::vector<AlarmScore> scores(thresholds.size());
-  for (const ExperimentRun& run : runs) {
-    const auto alarms = free_joint_alarms(robot, run.log, {thresholds, kName_s});
-    for (std::size_t i = 0; i < alarms.size(); ++i) scores[i].add(run, alarms[i]);
-  }
+  std::vector<AlarmScore> scores;
+  for (const ExperimentRun& run : runs)
+    add(scores, run, free_joint_alarms(robot, run.log, {thresholds, kName_s}));
   return scores;
 }
 

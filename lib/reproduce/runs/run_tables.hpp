@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
+#include "lib/core/progress.hpp"
+#include "lib/reproduce/page/reproduction.hpp"
 #include "lib/reproduce/page/result_table.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
-#include "lib/reproduce/runs/paired_bootstrap.hpp"
+#include "lib/reproduce/runs/alarm_score.hpp"
 #include "lib/reproduce/runs/run_condition.hpp"
 
 namespace faultline {
+
+/// The same figure of each seed's score.
+template <typename Figure>
+Measured of_seeds(const std::vector<const AlarmScore*>& scores, const Figure& figure) {
+  Measured measured;
+  for (const AlarmScore* score : scores) measured.by_seed.push_back(std::invoke(figure, *score));
+  return measured;
+}
 
 /// The results of one controller: [seed][noise].
 struct ControllerResults {
@@ -33,5 +44,14 @@ PairedDifference delay_difference(const ControllerResults& results, std::size_t 
 
 /// The rows on detection at any time, held, and on dual classification.
 std::vector<Goal> run_goals(const ControllerResults& held);
+
+/// The paper's figures 1 and 2 as runs: detection of a free-swinging joint at any time by single networks, by
+/// both with a case-based decision, by this project's own way and by a near-optimal reference, under every
+/// controller and noise reading.
+StudyResult run_study(const ReproduceOptions& options, const Progress& progress = {});
+
+/// The paper's figures 3 to 8: residual, position and velocity of joint 2, which swings freely from 4 s (MLP)
+/// or 5 s (RBFN) on, with what the networks put out. Held controller, no noise, the paper's own recipe.
+std::vector<Figure> fault_figures(const ReproduceOptions& options);
 
 }  // namespace faultline

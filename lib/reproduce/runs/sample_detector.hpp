@@ -5,7 +5,7 @@
 #include <span>
 
 #include "lib/classify/sample_classifier.hpp"
-#include "lib/reproduce/runs/monitored_runs.hpp"
+#include "lib/reproduce/runs/alarm_score.hpp"
 #include "lib/residual/residual_generator.hpp"
 
 namespace faultline {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/classifier/classifier_study.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "lib/reproduce/classifier/classifier_bench.hpp"
+#include "lib/reproduce/classifier/classifier_results.hpp"
 
 namespace faultline {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/classifier/local_gaussian.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "lib/core/random.hpp"
+#include "lib/reproduce/classifier/transition_posterior.hpp"
 
 namespace faultline {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/generator/generator_study.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+
+#include "lib/reproduce/generator/generator_measurements.hpp"
 
 namespace faultline {
 namespace {

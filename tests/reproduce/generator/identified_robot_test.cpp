@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/generator/identified_robot.hpp"
-
 #include <gtest/gtest.h>
+
+#include "lib/reproduce/generator/generator_bench.hpp"
 
 namespace faultline {
 namespace {

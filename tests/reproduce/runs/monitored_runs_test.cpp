@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/runs/monitored_runs.hpp"
-
 #include <gtest/gtest.h>
+
+#include "lib/reproduce/runs/alarm_score.hpp"
 
 namespace faultline {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/runs/paired_bootstrap.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "lib/core/random.hpp"
+#include "lib/reproduce/runs/alarm_score.hpp"
 
 namespace faultline {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/runs/run_study.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "lib/reproduce/runs/run_condition.hpp"
+#include "lib/reproduce/runs/run_tables.hpp"
 
 namespace faultline {
 namespace {

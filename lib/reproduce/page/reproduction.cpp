@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "lib/reproduce/page/reproduction.hpp"
+
 #include <nlohmann/json.hpp>
 
+#include "lib/core/error.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/version.hpp"
-#include "lib/reproduce/page/reproduction.hpp"
 
 namespace faultline {
 namespace {
@@ -55,6 +57,15 @@ Json figure_json(const Figure& figure) {
 }
 
 }  // namespace
+
+void ReproduceOptions::check() const {
+  if (seeds < 1 || seeds > 100)
+    throw Error(ErrorCode::usage, "ReproduceOptions.seeds",
+                "is " + std::to_string(seeds) + ", must be from 1 to 100");
+  if (threads < 0)
+    throw Error(ErrorCode::usage, "ReproduceOptions.threads",
+                "is " + std::to_string(threads) + ", must not be negative");
+}
 
 std::string reproduction_json(const Reproduction& reproduction) {
   Json json{{"schema", "faultline/reproduction/1"}, {"program", {{"version", program_version()}}}};
