@@ -7,7 +7,7 @@
 #include <string>
 
 #include "lib/core/progress.hpp"
-#include "lib/reproduce/reproduce.hpp"
+#include "lib/reproduce/page/reproduction.hpp"
 
 namespace faultline {
 

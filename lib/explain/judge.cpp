@@ -28,6 +28,7 @@ constexpr double kComesToRest = 0.3;  // share of them that repeat a code if the
 constexpr double kJolt = 3.0;         // times the joint's usual torque: that of a halt
 constexpr std::array kHalts_s{0.0, 0.04, 0.08, 0.12, 0.2, 0.3};  // during which the brake of a lock slides
 constexpr double kSlidingBrake = 20.0;                           // nats: rare
+constexpr double kNoFaster = 1.1;    // times the speed at the onset: a brake only slows a joint down
 constexpr double kRests = 0.02;      // of the joint's greatest healthy speed: a joint at rest is slower (rms)
 constexpr double kSettles_s = 0.02;  // s after the onset until a locked joint stands still
 constexpr double kStillVelocity = 0.1;  // of the noise of the velocity: a smaller change is none
@@ -141,6 +142,15 @@ std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim, double 
   return out;
 }
 
+/// Returns whether a joint (from 0) that moves for a while after an onset gets no faster.
+bool slows_down(const LogFit& fit, int j, double onset_s, double until_s) {
+  const VectorXd speed = fit.rows().dq.col(j).cwiseAbs();
+  const int first = std::min(fit.first_row(onset_s), fit.count() - 1);
+  const int rows = std::max(1, fit.first_row(until_s) - first);
+  const double slow = kRests * fit.model().top_speed[j];
+  return speed.segment(first, rows).maxCoeff() < kNoFaster * std::max(speed[first], slow);
+}
+
 /// Returns the nats by which the positions speak against a lock, for the likeliest duration of its halt: a
 /// brake may slide before it holds, and each row in which it slides has a force of its own. Empty if too few
 /// rows show the joint at rest.
@@ -148,7 +158,9 @@ std::optional<double> price_of_lock(const LogFit& fit, const FaultClaim& claim) 
   std::optional<double> least;
   for (const double halt_s : kHalts_s) {
     const std::vector<int> rest = rows_within(fit, claim, claim.onset_s + halt_s);
-    if (rest.size() < 5) break;
+    const bool is_possible =
+        halt_s == 0.0 || slows_down(fit, claim.joint - 1, claim.onset_s, claim.onset_s + halt_s);
+    if (rest.size() < 5 || !is_possible) break;
     const double slides = halt_s > 0.0 ? kSlidingBrake : 0.0;
     const double price = price_of_motion(fit, claim.joint - 1, rest) + slides +
                          kForcedRow * std::floor(halt_s / fit.model().setting.row_s());
