@@ -2,7 +2,6 @@
 #include "lib/explain/judge.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -26,9 +25,6 @@ constexpr double kSurely = 4.0;      // standard deviations within which remaini
 constexpr int kSamplesBefore = 20;    // samples before an onset that show whether the joint comes to rest
 constexpr double kComesToRest = 0.3;  // share of them that repeat a code if the joint comes to rest
 constexpr double kJolt = 3.0;         // times the joint's usual torque: that of a halt
-constexpr std::array kHalts_s{0.0, 0.04, 0.08, 0.12, 0.2, 0.3};  // during which the brake of a lock slides
-constexpr double kSlidingBrake = 20.0;                           // nats: rare
-constexpr double kNoFaster = 1.1;    // times the speed at the onset: a brake only slows a joint down
 constexpr double kRests = 0.02;      // of the joint's greatest healthy speed: a joint at rest is slower (rms)
 constexpr double kSettles_s = 0.02;  // s after the onset until a locked joint stands still
 constexpr double kStillVelocity = 0.1;  // of the noise of the velocity: a smaller change is none
@@ -133,40 +129,13 @@ double price_of_unseen_motion(const LogFit& fit, int j, const StackedMask& dropp
   return out;
 }
 
-/// Returns the rows from `from_s` until the end of a claim, without those that its ends reach.
-std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim, double from_s) {
+/// Returns the rows within onset and end, at which the joint must stand still.
+std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim) {
   const double reach = 3.0 * fit.model().setting.kernel_s + 0.02;
   std::vector<int> out;
   for (int k = 0; k < fit.count(); ++k)
-    if (fit.time_s()[k] > from_s + reach && fit.time_s()[k] < claim.end_s - reach) out.push_back(k);
+    if (fit.time_s()[k] > claim.onset_s + reach && fit.time_s()[k] < claim.end_s - reach) out.push_back(k);
   return out;
-}
-
-/// Returns whether a joint (from 0) that moves for a while after an onset gets no faster.
-bool slows_down(const LogFit& fit, int j, double onset_s, double until_s) {
-  const VectorXd speed = fit.rows().dq.col(j).cwiseAbs();
-  const int first = std::min(fit.first_row(onset_s), fit.count() - 1);
-  const int rows = std::max(1, fit.first_row(until_s) - first);
-  const double slow = kRests * fit.model().top_speed[j];
-  return speed.segment(first, rows).maxCoeff() < kNoFaster * std::max(speed[first], slow);
-}
-
-/// Returns the nats by which the positions speak against a lock, for the likeliest duration of its halt: a
-/// brake may slide before it holds, and each row in which it slides has a force of its own. Empty if too few
-/// rows show the joint at rest.
-std::optional<double> price_of_lock(const LogFit& fit, const FaultClaim& claim) {
-  std::optional<double> least;
-  for (const double halt_s : kHalts_s) {
-    const std::vector<int> rest = rows_within(fit, claim, claim.onset_s + halt_s);
-    const bool is_possible =
-        halt_s == 0.0 || slows_down(fit, claim.joint - 1, claim.onset_s, claim.onset_s + halt_s);
-    if (rest.size() < 5 || !is_possible) break;
-    const double slides = halt_s > 0.0 ? kSlidingBrake : 0.0;
-    const double price = price_of_motion(fit, claim.joint - 1, rest) + slides +
-                         kForcedRow * std::floor(halt_s / fit.model().setting.row_s());
-    least = std::min(price, least.value_or(price));
-  }
-  return least;
 }
 
 /// Returns the columns of an impulse on each other joint when a joint halts.
@@ -196,9 +165,9 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
   const bool telling = repeats_are_rare(m, j) && same_before < kComesToRest;
   double price = kForcedRow * lost;
   if (claim.kind == FaultKind::locked) {
-    const std::optional<double> moves = price_of_lock(fit, claim);
-    if (!moves) return std::nullopt;
-    price = *moves + kStillJoint;
+    const std::vector<int> within = rows_within(fit, claim);
+    if (within.size() < 5) return std::nullopt;
+    price = price_of_motion(fit, j, within) + kStillJoint;
     if (same > kStuckShare && telling) price += kRepeatedReading * samples;
   } else if (claim.kind == FaultKind::stuck_encoder) {
     price = kStillJoint + price_of_unseen_motion(fit, j, dropped);

@@ -296,17 +296,6 @@ TEST(ExplainLog, AHaltThatShakesTheOtherJointsIsOneLock) {
   EXPECT_NEAR(log.faults[0].claim.onset_s, 4.0, 0.05);
 }
 
-TEST(ExplainLog, ABrakeThatSlidesBeforeItHoldsIsALock) {
-  ClosedFormRun run = run_of(27);
-  run.locks_from_s = 4.15;
-  const Log log = testing::changed(simulate_closed_form(of_day(0), run), 4.0, 4.15,
-                                   [](Log& l, int k) { l.tau[1][k] += 6.0; });
-  const auto fault = decided(fit_of(log));
-  ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::locked, 2}));
-  EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.06);
-}
-
 TEST(ExplainLog, AnEncoderThatReadsAVelocityAnewIsNotStuck) {
   Log log = with_lock(24);
   for (int k = 1001; k < log.rows(); ++k) log.q[1][k] = log.q[1][1000];  // too coarse to show any noise
