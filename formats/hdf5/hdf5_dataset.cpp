@@ -114,7 +114,7 @@ std::optional<Hdf5Storage> hdf5_storage(hid_t dataset, const Hdf5Shape& shape, s
     return std::nullopt;
   }
   if (!has_filters(creation)) {
-    why = "its compression is not gzip, the only one that can be read; write it again with gzip";
+    why = "its compression is not gzip, the only one that this reader knows; write it again with gzip";
     return std::nullopt;
   }
   const H5D_layout_t layout = H5Pget_layout(creation);

@@ -124,7 +124,7 @@ class McapIndex {
   void check_statistics(std::string_view content) {
     ByteCursor record(content);
     const auto messages = static_cast<std::int64_t>(record.take<std::uint64_t>());
-    if (record.ok()) messages_told_ = messages;
+    if (record.ok()) stated_messages_ = messages;
   }
 
   /// Adds the errors of the summary; nothing for a damaged file.
@@ -136,19 +136,19 @@ class McapIndex {
            fmt::format("the index at the end of the file is wrong about {} of its {} chunks; the data were "
                        "read without it",
                        wrong_chunks_, indexed_)});
-    if (messages_told_ >= 0 && messages_told_ != messages_)
+    if (stated_messages_ >= 0 && stated_messages_ != messages_)
       issues.add(
           {"index_wrong", "", Severity::warning,
            fmt::format("the statistics at the end of the file count {} messages, but the file has {}; the "
                        "data were read without the statistics",
-                       messages_told_, messages_)});
+                       stated_messages_, messages_)});
   }
 
  private:
   std::int64_t messages_ = 0;
   std::map<std::int64_t, std::int64_t> chunks_;  ///< size by first byte
   std::int64_t indexed_ = 0, wrong_chunks_ = 0;
-  std::int64_t messages_told_ = -1;  ///< -1: no statistics
+  std::int64_t stated_messages_ = -1;  ///< -1: no statistics
 };
 
 std::optional<BlockPacking> mcap_packing(std::string_view name) {
@@ -319,7 +319,7 @@ class McapSource : public MessageSource {
     const auto channel = record.take<std::uint16_t>();
     constexpr std::size_t kEntry = 16;
     const std::size_t messages = record.text().size() / kEntry;
-    if (record.ok()) lost_.told(channel, messages, topics_.topic_of(channel));
+    if (record.ok()) lost_.compare(channel, messages, topics_.topic_of(channel));
   }
 
   void end() {

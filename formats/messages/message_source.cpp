@@ -34,7 +34,7 @@ void LostMessages::begin_chunk() {
   lossy_ = false;
 }
 
-void LostMessages::told(std::uint32_t channel, std::size_t messages, int topic) {
+void LostMessages::compare(std::uint32_t channel, std::size_t messages, int topic) {
   if (!lossy_ || topic < 0) return;
   for (std::size_t& met = met_[channel]; met < messages; ++met) topics_.push_back(topic);
 }

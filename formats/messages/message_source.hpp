@@ -88,7 +88,7 @@ class LostMessages {
   /// Counts a message of the chunk that was handed out.
   void met(std::uint32_t channel) { ++met_[channel]; }
   /// Takes the index after the chunk; messages of a topic beyond those counted by met() are missing.
-  void told(std::uint32_t channel, std::size_t messages, int topic);
+  void compare(std::uint32_t channel, std::size_t messages, int topic);
   /// Returns the next missing message; false when there is none.
   bool next(Message& message);
 

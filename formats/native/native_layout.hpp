@@ -68,7 +68,7 @@ std::uint32_t native_chunk_rows(std::uint64_t first_row);
 std::size_t find_native_header(std::string_view bytes, std::uint64_t least_row);
 
 /// The undamaged chunks of a native log in their order. Damaged parts are omitted and reported as issues: the
-/// chunks continue at the next header that can be found.
+/// chunks continue at the next valid header.
 class NativeChunks {
  public:
   NativeChunks(ByteWindow& bytes, std::size_t channels, Issues& issues)

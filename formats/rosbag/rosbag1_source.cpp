@@ -342,8 +342,8 @@ class Rosbag1Source : public MessageSource {
     if (topic == topic_of().end()) return;
     // Entries take 12 bytes each in the data, which was read with the record.
     constexpr std::size_t kEntry = 12;
-    lost_.told(topic->first, std::min<std::size_t>(fields.word("count"), record_size_ / kEntry),
-               topic->second);
+    lost_.compare(topic->first, std::min<std::size_t>(fields.word("count"), record_size_ / kEntry),
+                  topic->second);
   }
 
   void end() {

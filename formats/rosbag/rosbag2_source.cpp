@@ -214,7 +214,7 @@ class MessageTable {
     return at_row_ = sqlite3_step(messages_) == SQLITE_ROW && sqlite3_column_int64(messages_, 0) >= number;
   }
 
-  /// Skips messages that cannot be read, with growing steps, then bisects to the first one that can be read.
+  /// Skips unreadable messages, with growing steps, then bisects to the first readable one.
   bool pass_damage(Issues& issues) {
     constexpr std::int64_t kFarthest = std::int64_t{1} << 24;
     const std::int64_t first = std::max<std::int64_t>(number_, 0) + 1;

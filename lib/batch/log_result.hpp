@@ -14,7 +14,7 @@
 
 namespace faultline {
 
-/// Tells without reading a file whether it was written to meanwhile.
+/// Size and time of a file: a change of either shows, without reading, that the file was written to.
 struct FileStamp {
   std::uintmax_t bytes = 0;
   std::filesystem::file_time_type written{};

@@ -60,7 +60,7 @@ void add(const std::vector<ParameterEstimate>& from, std::vector<ParameterValue>
     if (!find_value(to, p.name)) to.push_back(value_of(p));
 }
 
-/// Tells how many items are done, one caller at a time.
+/// Reports the number of finished items, one caller at a time.
 class Counter {
  public:
   Counter(const Progress& progress, std::size_t items) : progress_(progress), items_(items) {}
