@@ -70,7 +70,6 @@ void check_joints(const Log& segment, const LogSource& log, const Model& model) 
 void LogTally::take(const Log& segment, const LogSource& log, const Model& model) {
   check_channels(segment, log, model);
   assess(segment, quality);
-  stretches.take(segment, log.identity().runs);
   if (rows == 0 && segment.rows() > 0) start_s = segment.time.front();
   if (segment.rows() > 0) end_s = segment.time.back();
   rows += segment.rows();
@@ -121,10 +120,7 @@ LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& mod
   facts.issues = log.issues();
   facts.runs = log.identity().runs;
   facts.resting = resting_joints(tally, model);
-  facts.unjudged = tally.stretches.longer_than_a_moment(quality.time.period_s);
-  for (const UnjudgedStretch& thin : tally.thin.stretches()) facts.unjudged.push_back(thin);
-  std::stable_sort(facts.unjudged.begin(), facts.unjudged.end(),
-                   [](const auto& a, const auto& b) { return a.start_s < b.start_s; });
+  facts.unjudged = tally.unjudged.stretches();
   facts.rows_unjudged = facts.rows_used - facts.judgeable_rows + rows_lost(facts.issues);
   facts.is_whole = facts.rows_unjudged == 0 && quality.time.gaps == 0;
   facts.issues.merge(quality.issues);

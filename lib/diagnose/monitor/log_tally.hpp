@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "lib/diagnose/diagnosis.hpp"
-#include "lib/diagnose/monitor/judged_stretches.hpp"
-#include "lib/diagnose/monitor/thin_stretches.hpp"
+#include "lib/diagnose/monitor/unjudged_time.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/model/model.hpp"
@@ -23,9 +22,8 @@ struct LogTally {
   double end_s = std::numeric_limits<double>::quiet_NaN();
   std::int64_t judgeable_rows = 0;  ///< rows with a position and a torque for every joint
   bool has_velocity = false;
-  JudgedStretches stretches;
-  ThinStretches thin;    ///< of the log with its lost rows as empty ones
-  QualityState quality;  ///< gaps, missing values, implausible units and the like
+  UnjudgedTime unjudged;  ///< of the log with its lost rows as empty ones
+  QualityState quality;   ///< gaps, missing values, implausible units and the like
 
   /// Counts a segment. Throws Error(input) when the log has other joints than the model's robot, or neither
   /// torque that the model can judge nor references that a tracking relation of the model needs.

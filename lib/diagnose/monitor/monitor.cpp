@@ -222,7 +222,7 @@ MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
   LogTally tally;
   for (Log segment; log.next(segment);) {
     tally.take(segment, log, model);
-    tally.thin.take(segment, log.identity().runs);
+    tally.unjudged.take(segment, log.identity().runs);
     relations.take(segment);
   }
   relations.finish();
@@ -248,7 +248,7 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   ResidualState state;
   ResidualSummary whole;
   for (Log segment; filled.next(segment);) {
-    tally.thin.take(segment, log.identity().runs);
+    tally.unjudged.take(segment, log.identity().runs);
     Residuals residuals = compute_residuals(model.residual, segment, state);
     whole.add(residuals);
     if (by_samples)
@@ -293,7 +293,7 @@ MonitoredLog read_unjudged(LogSource& log, const Model& model) {
   log.rewind();
   for (Log segment; log.next(segment);) {
     tally.take(segment, log, model);
-    tally.thin.take(segment, log.identity().runs);
+    tally.unjudged.take(segment, log.identity().runs);
   }
   MonitoredLog out;
   out.log = log_facts(log, tally, model);

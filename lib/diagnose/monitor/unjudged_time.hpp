@@ -11,15 +11,17 @@
 
 namespace faultline {
 
-/// Finds the stretches of a log in which a joint was judged again and again, but not enough: of ten moments
-/// in succession (judged_window_s()) more than a quarter was not judged, in pieces none of which is longer
-/// than a moment. In a run shorter than ten moments the limit is a quarter of its length, but at least one
-/// moment. JudgedStretches has the longer pieces.
-class ThinStretches {
+/// Finds the stretches of a log in which a joint could not be judged, because its position, its torque (if
+/// the log has torque) or whole rows are missing. A stretch counts if it is longer than a moment
+/// (judged_moment_s()), or at the end of a run longer than ten samples. A thin stretch, in which single
+/// moments are judged, counts if shorter pieces make up more than a quarter of ten moments in succession, in
+/// a shorter run a quarter of its length and at least one moment. The time between two runs does not count.
+class UnjudgedTime {
  public:
-  /// Takes the next rows, in which single lost rows are empty ones; `runs` are those known so far.
+  /// Takes the next rows; `runs` are those known so far.
   void take(const Log& segment, const std::vector<LogRun>& runs);
-  /// Returns them by start; complete after the last row. Rows without any position are reported as joint 0.
+  /// Returns the stretches by start; complete after the last row. Joint 0 stands for missing rows, and in
+  /// thin stretches for rows without any position.
   std::vector<UnjudgedStretch> stretches() const;
 
  private:
@@ -34,7 +36,9 @@ class ThinStretches {
     bool lacks_position = false, lacks_torque = false;
     std::deque<Piece> window;  ///< pieces of the latest ten moments
     double window_s = 0.0;     ///< their sum
-    Piece stretch;             ///< the latest stretch with too much unjudged time; none if its length is 0
+    Piece thin;                ///< the latest stretch with too much unjudged time; none if its length is 0
+
+    bool lacks_values() const { return lacks_position || lacks_torque; }
   };
 
   void begin();
@@ -42,17 +46,17 @@ class ThinStretches {
   void begin_run(double time_s);
   void end_run();
   void judge(std::size_t course, double time_s, bool is_missing_before);
-  void add_piece(std::size_t course, const Piece& piece);
+  void note_long(std::size_t course, double end_s, bool is_last);
+  void add_piece(std::size_t course, double end_s);
   void settle(std::size_t course);
   void grow(std::size_t course, double enough_s);
-  std::vector<UnjudgedStretch> without_doubles() const;
 
   Log head_;  ///< the first rows, until there are enough to estimate the period
   std::vector<LogRun> head_runs_;
   bool has_begun_ = false;
   double period_s_ = 0.0, moment_s_ = 0.0, width_s_ = 0.0;
   std::vector<Course> courses_;  ///< 0: the rows; then by joint
-  std::vector<UnjudgedStretch> found_;
+  std::vector<UnjudgedStretch> long_, thin_;
   double run_start_s_ = 0.0, last_s_ = 0.0;
   std::size_t run_ = 0;
 };
