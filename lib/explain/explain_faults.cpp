@@ -6,10 +6,10 @@
 #include <limits>
 #include <optional>
 
-#include "lib/explain/fault_end.hpp"
 #include "lib/explain/fault_spans.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
+#include "lib/explain/worn_spot.hpp"
 
 namespace faultline {
 namespace {
@@ -296,7 +296,7 @@ ExplainedLog explained_beside(const UniformLog& log, const BalanceModel& model, 
   std::stable_sort(faults.begin(), faults.end(), [](const ExplainedFault& a, const ExplainedFault& b) {
     return a.claim.onset_s < b.claim.onset_s;
   });
-  out.faults = without_slips(std::move(faults));
+  out.faults = without_worn_spots(log, model, before, without_slips(std::move(faults)));
   return out;
 }
 

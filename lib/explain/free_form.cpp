@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "lib/balance/recursive_regression.hpp"
+#include "lib/balance/regress.hpp"
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/explain/fault_end.hpp"
+#include "lib/explain/fault_spans.hpp"
 #include "lib/explain/search/white_search.hpp"
 
 namespace faultline {

@@ -6,7 +6,7 @@
 
 #include "lib/balance/uniform_log.hpp"
 #include "lib/explain/explain_log.hpp"
-#include "lib/fault/fault_labels.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 

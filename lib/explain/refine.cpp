@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "lib/explain/fault_end.hpp"
+#include "lib/explain/fault_spans.hpp"
 #include "lib/explain/judge.hpp"
 
 namespace faultline {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "tests/explain/explained_scara.hpp"
@@ -165,6 +166,32 @@ TEST(ExplainFaults, AnEncoderThatJumpsOnInOneDirectionIsOneFaultOfNoKind) {
   ASSERT_EQ(faults.size(), 1u) << said(faults);
   EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::unknown, 2}));
   EXPECT_NEAR(faults[0].claim.onset_s, 3.0, 0.02);
+}
+
+/// A log in which joint 2 has three times its dry friction in the rows that `is_worn` names by time and
+/// position.
+Log with_more_friction(const std::function<bool(double, double)>& is_worn) {
+  return changed(simulate_closed_form(of_day(0), run_of(29)), 0.0, kNeverEnds, [&](Log& log, int k) {
+    const ClosedFormScara robot;
+    if (is_worn(log.time[k], log.q[1][k]))
+      log.tau[1][k] += 2.0 * robot.fc[1] * std::tanh(log.dq[1][k] / robot.width);
+  });
+}
+
+TEST(ExplainFaults, FrictionInARangeOfPositionsIsOneFaultOfNoKind) {
+  const auto faults =
+      faults_of(with_more_friction([](double t, double q) { return t > 2.0 && std::abs(q) < 0.3; }));
+  ASSERT_EQ(faults.size(), 1u) << said(faults);
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_EQ(faults[0].claim.end_s, kNeverEnds);
+}
+
+TEST(ExplainFaults, FrictionThatComesTwiceAtAnyPositionIsTwoFaults) {
+  const auto faults = faults_of(
+      with_more_friction([](double t, double) { return (t > 2.0 && t < 3.5) || (t > 5.0 && t < 6.5); }));
+  ASSERT_EQ(faults.size(), 2u) << said(faults);
+  for (const ExplainedFault& fault : faults)
+    EXPECT_EQ(fault.label(), (FaultLabel{FaultKind::friction_increase, 2}));
 }
 
 TEST(LogFit, ALargeFaultDoesNotBendTheDayToWhatNoDayIs) {

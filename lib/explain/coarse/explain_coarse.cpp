@@ -9,7 +9,7 @@
 #include "lib/explain/coarse/coarse_bench.hpp"
 #include "lib/explain/coarse/coarse_search.hpp"
 #include "lib/explain/coarse/fault_directions.hpp"
-#include "lib/explain/fault_end.hpp"
+#include "lib/explain/fault_spans.hpp"
 #include "lib/explain/hypothesis_prices.hpp"
 
 namespace faultline {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/explain/coarse/fault_directions.hpp"
 
-#include "lib/fault/fault_labels.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/payload.hpp"
 
 namespace faultline {
