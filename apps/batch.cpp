@@ -80,7 +80,7 @@ int run_command(BatchArguments request, ColorChoice color) {
     result = run_batch_on(logs, models, request);
   }
   const int done = result.summary.all.logs - result.diagnosed;
-  if (done > 0) tell(fmt::format("{} of {} logs were done before", done, result.summary.all.logs));
+  if (done > 0) print_message(fmt::format("{} of {} logs were done before", done, result.summary.all.logs));
   return report(result.summary, request.folder, request.json);
 }
 

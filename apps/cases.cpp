@@ -18,7 +18,7 @@ using Action = CasesAnswer (*)(const CasesArguments&);
 
 int run_action(const CasesCommand& arguments, Action action) {
   const CasesAnswer answer = action(arguments);
-  if (!answer.note.empty()) tell(answer.note);
+  if (!answer.note.empty()) print_message(answer.note);
   if (!answer.json.is_null()) print(arguments.json ? answer.json.dump(2) + "\n" : answer.text);
   return kNothingFound;
 }

@@ -48,7 +48,7 @@ RunSignals read_run(const std::string& path, const Model* model) {
                 fmt::format("has a sample every {:.4g} s, but the model was learned from logs with one "
                             "every {:.4g} s; compare without --model",
                             rate.period_s, model->sample_period_s));
-  tell(path + ": " + resampled.message);
+  print_message(path + ": " + resampled.message);
   return run_signals(path, read_all(*at_model_rate(*log, *model)), &model->residual);
 }
 

@@ -46,8 +46,8 @@ void copy_rows(LogSource& source, LogWriter& writer, const Progress& progress) {
 
 void report_losses(const LogSource& source, const ConvertArguments& arguments) {
   for (const Issue& issue : source.issues().all())
-    tell(fmt::format("{}: {} {}{}: {}", arguments.log, to_string(issue.severity), issue.code,
-                     issue.count > 1 ? fmt::format(" ({} times)", issue.count) : "", issue.message));
+    print_message(fmt::format("{}: {} {}{}: {}", arguments.log, to_string(issue.severity), issue.code,
+                              issue.count > 1 ? fmt::format(" ({} times)", issue.count) : "", issue.message));
   if (arguments.out == "-") return;
   const auto& log = source.identity();
   print(printable(fmt::format("{}: {} of {} rows of {}", arguments.out,

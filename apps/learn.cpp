@@ -35,7 +35,8 @@ OpenLogs open_logs(const LearnArguments& arguments, const Robot& robot) {
   OpenLogs open;
   for (const std::string& log : arguments.logs)
     if (!open.add(log, open_robot_log(log, robot), labels, robot))
-      tell(printable(log) + " is not named in " + printable(arguments.labels) + "; it counts as healthy");
+      print_message(printable(log) + " is not named in " + printable(arguments.labels) +
+                    "; it counts as healthy");
   open.require_healthy();
   return open;
 }

@@ -128,7 +128,7 @@ int status_of(ErrorCode code) {
 }
 
 int fail(int status, const std::string& sentence) {
-  tell(sentence);
+  print_message(sentence);
   return status;
 }
 

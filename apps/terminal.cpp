@@ -58,7 +58,9 @@ void print(std::string_view text, bool color) {
               std::string("cannot be written (") + std::strerror(errno) + "); the result is incomplete");
 }
 
-void tell(std::string_view sentence) { std::fprintf(stderr, "faultline: %s\n", brief(sentence).c_str()); }
+void print_message(std::string_view sentence) {
+  std::fprintf(stderr, "faultline: %s\n", brief(sentence).c_str());
+}
 
 void prepare_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);

@@ -21,7 +21,7 @@ bool use_color(ColorChoice choice, std::FILE* stream);
 void print(std::string_view text, bool color = false);
 
 /// Writes "faultline: " and the sentence, shortened by brief(), to standard error.
-void tell(std::string_view sentence);
+void print_message(std::string_view sentence);
 
 /// Call it first: a closed pipe and a file size limit then cause write errors instead of signals, and closed
 /// standard streams cannot be confused with files opened later.

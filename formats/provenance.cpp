@@ -9,8 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/hash.hpp"
-#include "lib/core/issue_json.hpp"
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

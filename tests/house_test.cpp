@@ -209,7 +209,7 @@ TEST(House, OnlyTheGateWritesToStreams) {
     const std::vector<std::string> lines = lines_of(path);
     for (std::size_t i = 0; i < lines.size(); ++i)
       EXPECT_FALSE(std::regex_search(code_of(lines[i]), writing))
-          << place(path, i) << ": use tell() or print()";
+          << place(path, i) << ": use print_message() or print()";
   }
 }
 

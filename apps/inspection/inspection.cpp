@@ -13,7 +13,7 @@
 #include "lib/log/columns/unit_fit.hpp"
 #include "lib/log/mapped_source.hpp"
 #include "lib/log/recorder/corrected_source.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 namespace {

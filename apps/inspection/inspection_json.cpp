@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/inspection/inspection.hpp"
-#include "lib/core/issue_json.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/utf8.hpp"
-#include "lib/log/runs/log_run_json.hpp"
+#include "lib/log/log_run.hpp"
 
 namespace faultline {
 namespace {

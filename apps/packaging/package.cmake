@@ -20,7 +20,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME faultline)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS bash-completion)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
-    "Learns a model of a robot from logs of healthy runs and tells from the log
+    "Learns a model of a robot from logs of healthy runs and determines from the log
 of a bad run which fault it is, at which joint and from what time.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libfaultline-dev)

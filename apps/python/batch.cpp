@@ -35,7 +35,7 @@ Answer run(const std::vector<std::string>& paths, const FolderModels& models, co
   if (!shard.empty()) take_shard(shard, request.options);
   return watched(progress, [&](ProgressRelay& watch) {
     request.options.progress = [&watch](const BatchProgress& at) {
-      watch.tell(fmt::format("{} of {} logs", at.done, at.logs), static_cast<double>(at.done) / at.logs);
+      watch.report(fmt::format("{} of {} logs", at.done, at.logs), static_cast<double>(at.done) / at.logs);
     };
     const BatchResult result = run_batch_on(claimed_logs(request), loaded, request);
     return Answer(to_json(result.summary), to_text(result.summary), result.diagnosed);

@@ -11,7 +11,7 @@
 #include "lib/core/error.hpp"
 #include "lib/diagnose/curves/run_curves.hpp"
 #include "lib/diagnose/diagnose.hpp"
-#include "lib/fault/label_text.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/log/prefetch.hpp"
 #include "lib/report/html/report_formats.hpp"
 #include "lib/report/text.hpp"

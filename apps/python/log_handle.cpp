@@ -16,14 +16,13 @@
 #include "apps/work/robot_log.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
-#include "lib/core/issue_json.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/json_values.hpp"
-#include "lib/core/make_issue.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/log/log_channels.hpp"
 #include "lib/log/mapped_source.hpp"
 #include "lib/log/recorder/corrected_source.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {

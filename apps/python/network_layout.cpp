@@ -7,7 +7,7 @@
 
 #include "lib/classify/episode_features.hpp"
 #include "lib/core/error.hpp"
-#include "lib/fault/label_text.hpp"
+#include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
 namespace {
@@ -142,7 +142,7 @@ Transitions transitions_from(const ResidualGenerator& generator, const std::vect
 
 std::vector<NetworkLayout> network_layouts(const Model& model) {
   constexpr const char* kProbability = "probability of each class";
-  constexpr const char* kNearOne = "near 1 for the class that is there, near 0 for the others";
+  constexpr const char* kNearOne = "near 1 for the right class, near 0 for the others";
   std::vector<NetworkLayout> all;
   if (!model.has_mechanics()) return all;
   if (model.residual.kind != ResidualKind::physics) all.push_back(residual_layout(model));

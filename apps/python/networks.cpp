@@ -14,7 +14,7 @@
 #include "apps/work/file_use.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/diagnose/describe_episode.hpp"
+#include "lib/diagnose/decide_episode.hpp"
 #include "lib/diagnose/monitor/monitor.hpp"
 #include "lib/log/prefetch.hpp"
 

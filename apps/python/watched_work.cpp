@@ -18,8 +18,8 @@ constexpr auto kPause = std::chrono::milliseconds(50);
 /// Handles signals and reports the progress; throws the exceptions of Python.
 void serve(const py::object& progress, ProgressRelay& watch) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  const auto told = watch.take();
-  if (told && !progress.is_none()) progress(told->first, told->second);
+  const auto reported = watch.take();
+  if (reported && !progress.is_none()) progress(reported->first, reported->second);
 }
 
 class InterruptibleSource : public ChangedSource {
@@ -31,7 +31,7 @@ class InterruptibleSource : public ChangedSource {
     watch_.check();
     const bool more = source_.next(segment);
     const double share = source_.share_read();
-    if (reports_progress_ && std::isfinite(share)) watch_.tell("reading " + source_.identity().path, share);
+    if (reports_progress_ && std::isfinite(share)) watch_.report("reading " + source_.identity().path, share);
     return more;
   }
 
@@ -42,7 +42,7 @@ class InterruptibleSource : public ChangedSource {
 
 }  // namespace
 
-void ProgressRelay::tell(const std::string& what, double share) {
+void ProgressRelay::report(const std::string& what, double share) {
   check();
   const std::lock_guard lock(mutex_);
   told_ = {what, share};

@@ -25,13 +25,13 @@ struct Interruption {};
 class ProgressRelay {
  public:
   /// Reports the progress; the work calls it regularly. Throws Interruption when the work must end.
-  void tell(const std::string& what, double share);
+  void report(const std::string& what, double share);
   void check() const {
     if (stopped_) throw Interruption{};
   }
-  /// Returns tell() as callback for work that takes one.
+  /// Returns report() as callback for work that takes one.
   Progress progress() {
-    return [this](const std::string& what, double share) { tell(what, share); };
+    return [this](const std::string& what, double share) { report(what, share); };
   }
 
   void stop() { stopped_ = true; }

@@ -118,15 +118,15 @@ GuessedUnit guess_time_unit(const std::vector<double>& time, const std::vector<J
     for (const auto& [unit, factor] : {std::pair{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
       const double rate = 1.0 / (period * factor);
       if (!(rate > kSlowestRate && rate < kFastestRate)) continue;
-      int told = 0, fitting = 0;
+      int known = 0, fitting = 0;
       for (const JointNumbers& joint : joints) {
         if (std::isnan(joint.ratio)) continue;
         const double ratio = std::abs(joint.ratio) / factor;
-        ++told;
+        ++known;
         fitting += near(ratio, 1.0) ||
                    (!plain && (near(ratio, ratio_of(kPairs[3])) || near(ratio, ratio_of(kPairs[4]))));
       }
-      if (told > 0 && 2 * fitting > told)
+      if (known > 0 && 2 * fitting > known)
         return {std::string(unit) == "s" ? "" : unit,
                 fmt::format("with it the velocity is the derivative of the position, at {:.4g} Hz", rate)};
     }

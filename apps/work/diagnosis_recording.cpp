@@ -12,10 +12,10 @@
 #include "formats/provenance.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/diagnose/curves/expected_joint.hpp"
 #include "lib/diagnose/curves/required_torque.hpp"
+#include "lib/diagnose/curves/window_curves.hpp"
 #include "lib/diagnose/monitor/model_rate.hpp"
-#include "lib/fault/label_text.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {

@@ -12,10 +12,10 @@
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/diagnose/blind_spots.hpp"
-#include "lib/fault/label_text.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/identify/identification_json.hpp"
 #include "lib/report/model_facts.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 namespace {

@@ -8,7 +8,7 @@
 #include "lib/log/recorder/corrected_source.hpp"
 #include "lib/log/transformed/coupled_source.hpp"
 #include "lib/log/transformed/delayed_torque_source.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "lib/core/error.hpp"
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/text.hpp"
 #include "lib/core/utf8.hpp"
 #include "lib/log/channel_names.hpp"

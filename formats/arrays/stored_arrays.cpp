@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "formats/bytes/little_endian.hpp"
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

@@ -8,7 +8,7 @@
 #include "formats/csv/csv_fields.hpp"
 #include "lib/core/csv_cell.hpp"
 #include "lib/log/channel_names.hpp"
-#include "lib/log/counted_time.hpp"
+#include "lib/log/columns/counted_time.hpp"
 #include "lib/log/units.hpp"
 
 namespace faultline {

@@ -21,7 +21,7 @@
 #include "formats/hdf5/hdf5_format.hpp"
 #include "formats/hdf5/hdf5_library.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

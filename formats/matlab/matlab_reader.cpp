@@ -16,7 +16,7 @@
 #include "formats/hdf5/hdf5_format.hpp"
 #include "formats/matlab/matlab_format.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

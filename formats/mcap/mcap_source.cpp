@@ -128,7 +128,7 @@ class McapIndex {
   }
 
   /// Adds the errors of the summary; nothing for a damaged file.
-  void tell(bool damaged, Issues& issues) const {
+  void report(bool damaged, Issues& issues) const {
     if (damaged) return;
     if (wrong_chunks_ > 0)
       issues.add(
@@ -239,7 +239,8 @@ class McapSource : public MessageSource {
   }
 
   void begin_recording() {
-    if (records_.recordings() > 1) index_.tell(records_.damaged() || issues_.find("chunk_damaged"), issues_);
+    if (records_.recordings() > 1)
+      index_.report(records_.damaged() || issues_.find("chunk_damaged"), issues_);
     index_ = {};
     topics_.start_recording(std::max<std::size_t>(records_.recordings(), 1) - 1);
   }
@@ -325,7 +326,7 @@ class McapSource : public MessageSource {
   void end() {
     at_end_ = true;
     bytes_->read_to_end();
-    index_.tell(records_.damaged() || issues_.find("chunk_damaged"), issues_);
+    index_.report(records_.damaged() || issues_.find("chunk_damaged"), issues_);
     issues_.merge(bytes_->issues());
   }
 

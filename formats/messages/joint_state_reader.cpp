@@ -76,7 +76,7 @@ class ReceiptGap {
   }
 
   /// Adds a note when some delay is not 0.
-  void tell(Issues& issues) const {
+  void report(Issues& issues) const {
     if (messages_ == 0 || (least_s_ == 0.0 && most_s_ == 0.0)) return;
     issues.add({"receipt_gap", "t", Severity::note,
                 fmt::format("the messages were received {:.4g} s after the stamps in their headers on "
@@ -123,7 +123,7 @@ class JointStateReader : public RawReader {
     all_issues_ = layout_.issues;
     all_issues_.merge(source_->issues());
     all_issues_.merge(issues_);
-    if (at_end_) gap_.tell(all_issues_);
+    if (at_end_) gap_.report(all_issues_);
     return all_issues_;
   }
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {
@@ -244,7 +244,7 @@ class RecordFields {
   std::int64_t bytes_ = 0;
 };
 
-void tell(Issues& issues, const std::string& name, const std::string& what, Severity severity) {
+void add_issue(Issues& issues, const std::string& name, const std::string& what, Severity severity) {
   const std::string label = name.empty() ? "the array" : "\"" + shortened(name, kLongestName) + "\"";
   issues.add(make_issue("array_left_out", severity, label + " " + what, name));
 }
@@ -290,8 +290,8 @@ std::optional<NpyArray> read_npy_header(ContentStream& stream, const std::string
   NpyArray result;
   RecordFields fields(descr.is_array() && !name.empty() ? name + "." : name);
   if (descr == "|O") {
-    tell(issues, name, "holds Python objects, and was left out; save plain arrays of numbers",
-         Severity::note);
+    add_issue(issues, name, "holds Python objects, and was left out; save plain arrays of numbers",
+              Severity::note);
     return result;
   }
   const auto record =
@@ -301,7 +301,8 @@ std::optional<NpyArray> read_npy_header(ContentStream& stream, const std::string
   spread(fields.arrays, *shape, *record, fortran_order);
   for (StoredArray& stored : fields.arrays) stored.begin = header_bytes;
   const bool number = !fields.arrays.empty();
-  if (!number && !shape->empty()) tell(issues, name, "holds no numbers, and was left out", Severity::note);
+  if (!number && !shape->empty())
+    add_issue(issues, name, "holds no numbers, and was left out", Severity::note);
   result.arrays = std::move(fields.arrays);
   result.bytes = header_bytes + *bytes;
   return result;

@@ -16,7 +16,7 @@
 #include "formats/numpy/npy_header.hpp"
 #include "formats/numpy/numpy_format.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

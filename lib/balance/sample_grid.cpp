@@ -203,7 +203,7 @@ RowSteps row_steps(const std::vector<std::vector<double>>& positions) {
   return out;
 }
 
-bool stamps_wobble(std::span<const double> time, double period_s) {
+bool stamps_jitter(std::span<const double> time, double period_s) {
   return time.size() > 1 && stamp_error(time, period_s) > kLeastError;
 }
 
@@ -215,7 +215,7 @@ SampleGrid sample_grid(std::span<const double> time, double period_s, const RowS
     return with_line(std::move(grid), time, period_s);
   }
   Sequences all = sequences_of(time, period_s, steps);
-  // The usual step of stamps that wobble differs from the period by some tenths of a per cent. The mean step
+  // The usual step of stamps with jitter differs from the period by some tenths of a per cent. The mean step
   // is the period if no row is lost.
   const double mean_s = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   const double off_rate = std::abs(mean_s / period_s - 1.0);

@@ -27,11 +27,11 @@ struct RowSteps {
 RowSteps row_steps(const std::vector<std::vector<double>>& positions);
 
 /// Returns whether stamps lie so far from whole periods that they alone do not determine the grid points.
-bool stamps_wobble(std::span<const double> time_s, double period_s);
+bool stamps_jitter(std::span<const double> time_s, double period_s);
 
 /// Returns the most likely grid points of rows that were taken every `period_s` and stamped with some error:
 /// the rising sequence with the least cost of stamp errors, lost points and surplus rows (Viterbi 1967). A
-/// stamp that wobbles thus does not make two rows share a point. The phase of the clock is tracked, so that
+/// stamp with jitter thus does not make two rows share a point. The phase of the clock is tracked, so that
 /// `period_s` need not be exact. `time_s` rises or repeats. `steps`, if given, add to the cost: a stamp that
 /// is late by a period beside a lost row looks right, and the motion of the joints shows its point.
 SampleGrid sample_grid(std::span<const double> time_s, double period_s, const RowSteps& steps = {});

@@ -83,7 +83,7 @@ PlacedRows placed(const Log& all, const std::string& path, double period_s) {
     out.row.push_back(row);
     time.push_back(all.time[row]);
   }
-  std::vector<std::vector<double>> positions(stamps_wobble(time, period_s) ? all.q.size() : 0);
+  std::vector<std::vector<double>> positions(stamps_jitter(time, period_s) ? all.q.size() : 0);
   for (std::size_t j = 0; j < positions.size(); ++j)
     for (const int row : out.row) positions[j].push_back(all.q[j][row]);
   out.grid = sample_grid(time, period_s, row_steps(positions));

@@ -12,8 +12,8 @@ bool is_batch_folder(const std::string& folder);
 
 /// The folder of a batch's results, held so that no second batch writes into it. Throws Error(output) when it
 /// cannot be made or written, Error(usage) when it holds something else, Error(input) when a link, a pipe or
-/// a device is in the place of one of its files (inner_file.hpp): a folder of results may come from somebody
-/// else.
+/// a device is in the place of one of its files (inner_file.hpp): a folder of results may come from another
+/// person.
 class BatchFolder {
  public:
   /// With `wait`, waits for another batch there to end; else that is an Error(output).

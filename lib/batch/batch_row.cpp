@@ -15,7 +15,7 @@
 #include "lib/core/text.hpp"
 #include "lib/core/utf8.hpp"
 #include "lib/diagnose/fault_event_fields.hpp"
-#include "lib/fault/label_text.hpp"
+#include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
 namespace {

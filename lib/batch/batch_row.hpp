@@ -8,7 +8,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/diagnose/fault_event.hpp"
-#include "lib/identify/parameter_value.hpp"
+#include "lib/identify/identification.hpp"
 
 namespace faultline {
 

@@ -8,8 +8,8 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/fault/fault_words.hpp"
-#include "lib/fault/label_text.hpp"
 
 namespace faultline {
 namespace {

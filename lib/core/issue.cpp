@@ -2,8 +2,10 @@
 #include "lib/core/issue.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "lib/core/json_values.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {
@@ -48,6 +50,17 @@ std::int64_t Issues::rows_dropped() const {
   std::int64_t rows = 0;
   for (const Issue& issue : issues_) rows += issue.rows_dropped;
   return rows;
+}
+
+nlohmann::ordered_json issue_json(const Issue& issue) {
+  return {{"code", issue.code},
+          {"channel", text_or_null(issue.channel)},
+          {"severity", to_string(issue.severity)},
+          {"message", issue.message},
+          {"first_row", count_or_null(issue.first_row)},
+          {"first_time_s", number_or_null(issue.first_time_s)},
+          {"count", issue.count},
+          {"rows_dropped", issue.rows_dropped}};
 }
 
 }  // namespace faultline

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace faultline {
@@ -41,5 +43,18 @@ class Issues {
  private:
   std::vector<Issue> issues_;
 };
+
+/// Returns an issue of a whole log or of one `channel`, without a row.
+inline Issue make_issue(std::string code, Severity severity, std::string message, std::string channel = "") {
+  Issue issue;
+  issue.code = std::move(code);
+  issue.channel = std::move(channel);
+  issue.severity = severity;
+  issue.message = std::move(message);
+  return issue;
+}
+
+/// Returns the issue with its texts unchanged; those from a file may be invalid UTF-8.
+nlohmann::ordered_json issue_json(const Issue& issue);
 
 }  // namespace faultline

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Values in JSON as in all files of faultline: a missing value is null, and a number that is not finite
@@ -31,5 +32,11 @@ double number_or_nan(const nlohmann::json& value);
 double number_or_nan(const nlohmann::ordered_json& value);
 std::string text_or_empty(const nlohmann::ordered_json& value);
 int count_or_zero(const nlohmann::ordered_json& value);
+
+inline constexpr int kMostJsonNesting = 64;  ///< lists and objects within one another
+
+/// Throws Error(input) if a JSON text nests deeper than that. To be called before parsing a text whose values
+/// are converted, which uses the stack for each level.
+void refuse_deep_json(std::string_view json, const std::string& where);
 
 }  // namespace faultline

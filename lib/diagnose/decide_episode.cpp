@@ -2,7 +2,6 @@
 #include "lib/diagnose/decide_episode.hpp"
 
 #include "lib/diagnose/decision.hpp"
-#include "lib/diagnose/describe_episode.hpp"
 #include "lib/diagnose/finding.hpp"
 #include "lib/diagnose/precedents.hpp"
 
@@ -16,6 +15,11 @@ double calibrated(const Decision& decision, const ConfidenceCalibration& calibra
 }
 
 }  // namespace
+
+ConfidenceSource confidence_source(DecidedBy decided_by) {
+  if (decided_by == DecidedBy::agreement) return ConfidenceSource::networks;
+  return decided_by == DecidedBy::cases ? ConfidenceSource::votes : ConfidenceSource::likelihood;
+}
 
 FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model, const CaseBase& cases) {
   DescribedEpisode described = describe_episode(observed, model);
@@ -31,6 +35,20 @@ FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model
   FaultFinding finding = finding_of({observed, basis, decision}, model);
   finding.precedents = precedents_of(basis, cases, model);
   return finding;
+}
+
+DescribedEpisode describe_episode(const MonitoredEpisode& observed, const Model& model) {
+  DescribedEpisode out;
+  out.evidence = evidence_by_label(observed.fault, observed.end_s, model.labels, model.motion);
+  Episode& episode = out.episode;
+  episode.features = episode_features(out.evidence, observed.end_s - observed.onset_s(), observed.residuals,
+                                      model.robot.joints());
+  episode.evidence = observed.fault.evidence;
+  if (!model.episode_classifier.trained()) return out;
+  const Opinions opinions = classify_episode(model.episode_classifier, episode.features);
+  episode.mlp = opinions.mlp;
+  episode.rbfn = opinions.rbfn;
+  return out;
 }
 
 }  // namespace faultline

@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "lib/diagnose/decided_by.hpp"
-#include "lib/diagnose/decision_basis.hpp"
+#include "lib/cases/votes.hpp"
+#include "lib/classify/episode_features.hpp"
+#include "lib/diagnose/diagnosis.hpp"
 
 namespace faultline {
+
+/// The input of a decision on an episode.
+struct DecisionBasis {
+  /// The fault that explains the log best; FaultKind::unknown if the free form explains it much better.
+  FaultLabel likeliest;
+  std::vector<FaultLabel> as_likely;    ///< explain the log almost as well
+  std::vector<LabelEvidence> evidence;  ///< of each label
+  Episode episode;                      ///< features, and the opinions of both networks
+  Votes votes;                          ///< of similar cases
+  double limit = 0.0;                   ///< limit of the evidence, nats
+};
 
 /// A larger share of the votes settles a disagreement of the networks, or gives a warning.
 inline constexpr double kClearShare = 0.5;
@@ -39,5 +52,11 @@ Decision opinion_on(const Episode& episode, const Votes& votes);
 /// fault that the log excludes, the label is that of the likeliest fault. If the free form explains the log
 /// much better than every known fault, the fault is unknown.
 Decision decide(const DecisionBasis& basis);
+
+/// Returns the reason for a decision, in one sentence.
+std::string reason_in_words(const Decision& decision, const DecisionBasis& basis);
+
+/// Lists what contradicts the decision among similar cases, a sentence each.
+std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes& votes);
 
 }  // namespace faultline

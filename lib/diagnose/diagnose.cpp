@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/version.hpp"
 #include "lib/diagnose/blind_spots.hpp"
 #include "lib/diagnose/decide_episode.hpp"

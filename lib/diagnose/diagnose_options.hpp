@@ -13,7 +13,15 @@ enum class ClassifyMode {
   samples,   ///< the paper's: both networks over the residuals of each sample, and the fault criterion
 };
 inline constexpr std::array kClassifyModes{ClassifyMode::evidence, ClassifyMode::samples};
-const char* to_string(ClassifyMode mode);
+inline const char* to_string(ClassifyMode mode) {
+  switch (mode) {
+    case ClassifyMode::evidence:
+      return "evidence";
+    case ClassifyMode::samples:
+      return "samples";
+  }
+  return "";
+}
 
 struct DiagnoseOptions {
   ClassifyMode mode = ClassifyMode::evidence;

@@ -10,7 +10,6 @@
 #include "lib/cases/case.hpp"
 #include "lib/core/issue.hpp"
 #include "lib/diagnose/condition.hpp"
-#include "lib/diagnose/decided_by.hpp"
 #include "lib/explain/evidence_course.hpp"
 #include "lib/fault/opinion.hpp"
 #include "lib/log/log_run.hpp"
@@ -18,6 +17,19 @@
 
 /// The one result of diagnosing a log; every report is a rendering of it. Schema "faultline/diagnosis/1".
 namespace faultline {
+
+/// What decided on the label of a fault.
+enum class DecidedBy {
+  agreement,    ///< both networks
+  cases,        ///< similar cases and the networks' opinions, by vote
+  evidence,     ///< the likelihood of the physical hypotheses
+  criterion,    ///< the fault criterion over single samples
+  actuator,     ///< the second residual of measured against commanded torque
+  control_law,  ///< that of commanded torque against the inputs of the controller
+  tracking,     ///< that of the motion against its reference
+  abstained,    ///< nothing: networks too unsure, or votes too even, to name a fault
+};
+const char* to_string(DecidedBy decided_by);
 
 enum class Verdict {
   not_run,

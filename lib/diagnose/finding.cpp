@@ -8,11 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/distributions.hpp"
 #include "lib/core/number_text.hpp"
-#include "lib/diagnose/decision_words.hpp"
+#include "lib/diagnose/decision.hpp"
 #include "lib/diagnose/least_size.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/fault/fault_words.hpp"
-#include "lib/fault/label_text.hpp"
 
 namespace faultline {
 namespace {
@@ -139,6 +140,8 @@ EpisodeFacts facts_of(const Episode& episode, const std::vector<std::string>& fe
   return facts;
 }
 
+constexpr double kFar = 2.0;  // normal ranges: friction above this is a fault
+
 }  // namespace
 
 FaultFinding finding_of(const DecidedEpisode& decided, const Model& model) {
@@ -192,6 +195,16 @@ FaultFinding finding_of(const SampleAlarm& alarm) {
   finding.could_also_be = alternatives_to(alarm);
   finding.next_check = next_check_for(finding.label);
   return finding;
+}
+
+std::vector<LastingFriction> lasting_friction(const std::vector<DayEffect>& day, double start_s,
+                                              double end_s) {
+  std::vector<LastingFriction> out;
+  for (const DayEffect& effect : day)
+    if (effect.kind == DayEffectKind::friction &&
+        effect.value - kNormal95 * effect.std > kFar * effect.normal_range())
+      out.push_back({effect, start_s, end_s});
+  return out;
 }
 
 }  // namespace faultline

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/cases/case_base.hpp"
-#include "lib/diagnose/decision_basis.hpp"
+#include "lib/diagnose/decision.hpp"
 #include "lib/diagnose/diagnosis.hpp"
 #include "lib/model/model.hpp"
 

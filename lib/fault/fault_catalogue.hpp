@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "lib/fault/fault_kind.hpp"
 #include "lib/fault/fault_size.hpp"
@@ -55,5 +56,11 @@ struct FaultDescription {
 };
 
 const FaultDescription& describe(FaultKind kind);
+
+/// Returns the possible faults of a robot of so many joints: each kind at each joint it can have, in the
+/// order of the catalogue, without the unknown fault. `payload_links`: links (from 0) whose payload is
+/// identifiable. `torque_is_measured`: behind the drive, which hides some kinds.
+std::vector<FaultLabel> fault_labels(int joints, const std::vector<int>& payload_links,
+                                     bool torque_is_measured);
 
 }  // namespace faultline

@@ -18,4 +18,9 @@ FaultKind fault_kind_from(const std::string& name) {
   throw Error(ErrorCode::usage, "fault", "\"" + name + "\" is not a fault name; expected one of " + known);
 }
 
+std::string label_text(const FaultLabel& label, const char* between) {
+  const std::string kind = to_string(label.kind);
+  return label.joint > 0 ? kind + between + std::to_string(label.joint) : kind;
+}
+
 }  // namespace faultline

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lib/core/number_text.hpp"
-#include "lib/fault/label_text.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/golden/comparison.hpp"
 
 namespace faultline {

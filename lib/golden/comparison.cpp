@@ -181,7 +181,7 @@ void compare_value(const ParameterValue& expected, const ParameterValue* actual,
   comparison.lines.push_back({value_line(expected), value_line(*actual), differs});
 }
 
-/// What nobody expected.
+/// What was not expected.
 void compare_new(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
                  Comparison& comparison) {
   for (const ParameterValue& p : actual) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "lib/fault/label_text.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/identify/parameter_space.hpp"
 
 namespace faultline {

@@ -5,7 +5,7 @@
 
 #include "lib/golden/observation.hpp"
 #include "lib/golden/tolerance.hpp"
-#include "lib/identify/parameter_value.hpp"
+#include "lib/identify/identification.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {

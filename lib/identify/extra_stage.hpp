@@ -5,8 +5,8 @@
 #include <span>
 
 #include "lib/identify/gathered.hpp"
+#include "lib/identify/parameter_space.hpp"
 #include "lib/identify/torque_fit.hpp"
-#include "lib/identify/wanted_parameters.hpp"
 #include "lib/identify/weak_form/weak_choice.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/robot/robot.hpp"

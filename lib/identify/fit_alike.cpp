@@ -11,16 +11,16 @@
 #include <vector>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/extra_stage.hpp"
 #include "lib/identify/gathered.hpp"
 #include "lib/identify/interpretation/reinterpretation.hpp"
+#include "lib/identify/parameter_space.hpp"
 #include "lib/identify/parameter_table.hpp"
 #include "lib/identify/shooting_stage.hpp"
 #include "lib/identify/torque_fit.hpp"
 #include "lib/identify/verdict/fit_verdict.hpp"
-#include "lib/identify/wanted_parameters.hpp"
 #include "lib/identify/weak_form/weak_choice.hpp"
 
 namespace faultline {

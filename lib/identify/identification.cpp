@@ -71,4 +71,14 @@ Robot draw(const Identification& id, Random& random) {
   return robot_with(id.robot, space, p);
 }
 
+ParameterValue value_of(const ParameterEstimate& estimate) {
+  return {estimate.name, estimate.value, estimate.std, estimate.unit};
+}
+
+const ParameterValue* find_value(const std::vector<ParameterValue>& values, const std::string& name) {
+  const auto found = std::find_if(values.begin(), values.end(),
+                                  [&](const ParameterValue& value) { return value.name == name; });
+  return found == values.end() ? nullptr : &*found;
+}
+
 }  // namespace faultline

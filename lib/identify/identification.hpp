@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +12,6 @@
 #include "lib/core/random.hpp"
 #include "lib/identify/excitation/excitation.hpp"
 #include "lib/identify/parameter_space.hpp"
-#include "lib/identify/verdict/joint_fit.hpp"
 #include "lib/identify/verdict/parameter_trend.hpp"
 #include "lib/identify/verdict/residual_pattern.hpp"
 #include "lib/robot/robot.hpp"
@@ -121,5 +121,18 @@ Robot draw(const Identification& identification, Random& random);
 
 /// Returns `robot` with the parameters of `space` in its chain and its torque timing.
 Robot robot_with(const Robot& robot, const ParameterSpace& space, const Eigen::VectorXd& parameters);
+
+/// Estimate of a parameter by one identification, without its reasons, to be stored and compared with that of
+/// another identification.
+struct ParameterValue {
+  std::string name;  ///< of ParameterEstimate
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double std = std::numeric_limits<double>::quiet_NaN();  ///< NaN if not identifiable
+  std::string unit;
+};
+
+ParameterValue value_of(const ParameterEstimate& estimate);
+/// Returns the value of that name; null if there is none.
+const ParameterValue* find_value(const std::vector<ParameterValue>& values, const std::string& name);
 
 }  // namespace faultline

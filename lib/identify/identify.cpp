@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "lib/core/error.hpp"
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/identify/fit_alike.hpp"
 #include "lib/identify/physical.hpp"
 #include "lib/identify/shooting_stage.hpp"

@@ -79,4 +79,19 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain& chain, d
 /// Returns the map from the numbers of links and rotors to base parameters: base x (11 n).
 Eigen::MatrixXd base_map(const ParameterSpace& space);
 
+/// Parameters to be estimated from logs.
+struct WantedParameters {
+  std::vector<bool> asked;     ///< not given exactly, nor friction of a joint that never moves
+  std::vector<bool> optional;  ///< of those, kept only if they lower the held-out error: rotors, offsets,
+                               ///< bent, skew and extra terms
+};
+
+/// Returns the parameters to be estimated. `still` are the joints that never move, from 1: at rest their
+/// friction may be anything up to stiction. Offsets, bends and skews are asked for only with `try_offsets`.
+WantedParameters wanted_parameters(const ParameterSpace& space, const Robot& robot,
+                                   const std::vector<int>& still, bool try_offsets);
+
+/// Returns the change of the base parameters by 1 kg at the end of each link: base parameters x links.
+Eigen::MatrixXd payload_columns(const ParameterSpace& space);
+
 }  // namespace faultline

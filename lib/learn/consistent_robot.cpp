@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "lib/core/error.hpp"
-#include "lib/core/make_issue.hpp"
-#include "lib/fault/label_text.hpp"
+#include "lib/core/issue.hpp"
+#include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/fit_coarse_days.hpp"

@@ -115,7 +115,7 @@ std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
 /// chance with a probability of at most exp(-t) (Wald, 1945), so x nats more divide that rate by exp(x).
 double limit_shift(double alarms_per_hour) { return elementary::log(kUsualAlarmsPerHour / alarms_per_hour); }
 
-void tell(const Progress& progress, const char* what, double share) {
+void report_progress(const Progress& progress, const char* what, double share) {
   if (progress) progress(what, share);
 }
 
@@ -183,7 +183,7 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   };
   TwinStudy faulty = training_runs(kTrainingSeeds);
   if (share_found(faulty) < kEnoughFound) faulty = joined(std::move(faulty), training_runs(kMoreSeeds));
-  tell(progress, "training networks on samples", kSimulated);
+  report_progress(progress, "training networks on samples", kSimulated);
   std::vector<LabelledResiduals> residuals = std::move(faulty.residuals);
   residuals.insert(residuals.end(), healthy.residuals.begin(), healthy.residuals.end());
   model.samples = learn_sample_mode(model, std::move(residuals));
@@ -191,7 +191,7 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   const std::size_t simulated = runs.size();
   for (MonitoredRun& run : monitored(labelled, reading, model)) runs.push_back(std::move(run));
 
-  tell(progress, "training networks on episodes", kSimulated);
+  report_progress(progress, "training networks on episodes", kSimulated);
   const TrainingEpisodes training = training_episodes(runs, model);
   EpisodeClassifierOptions classifying;
   classifying.seed = options.seed;
@@ -215,7 +215,7 @@ Learned learn_tracking_alone(std::span<LogSource* const> healthy, std::span<cons
     throw Error(ErrorCode::input, labelled.front().log->identity().path,
                 "is labelled with a fault, but the healthy logs have no torque: a model without torque "
                 "learns healthy motion only; leave labelled logs out");
-  tell(progress, "learning how joints follow their references", 0.0);
+  report_progress(progress, "learning how joints follow their references", 0.0);
   Learned out;
   out.model = tracking_model(healthy, robot, alarms_per_hour);
   bind_cases(out.model, out.cases);

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "lib/core/error.hpp"
-#include "lib/diagnose/describe_episode.hpp"
+#include "lib/diagnose/decide_episode.hpp"
 
 namespace faultline {
 namespace {

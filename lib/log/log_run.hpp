@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 
 namespace faultline {
 
@@ -19,5 +20,8 @@ struct LogRun {
 
 /// Value of a run option: all runs are read as one log.
 inline constexpr int kEveryRun = 0;
+
+/// Returns the run as a JSON object, the same in reports of every kind.
+nlohmann::ordered_json log_run_json(const LogRun& run);
 
 }  // namespace faultline

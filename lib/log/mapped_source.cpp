@@ -13,7 +13,6 @@
 
 #include "lib/core/error.hpp"
 #include "lib/log/log_channels.hpp"
-#include "lib/log/rows/keep_rows.hpp"
 #include "lib/log/runs/judged_moment.hpp"
 #include "lib/log/units.hpp"
 

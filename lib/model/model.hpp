@@ -10,7 +10,7 @@
 #include "lib/classify/fault_criterion.hpp"
 #include "lib/classify/sample_classifier.hpp"
 #include "lib/explain/explain_log.hpp"
-#include "lib/fault/fault_labels.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/identify/usual_motion.hpp"
 #include "lib/model/twin/twin_options.hpp"

@@ -8,7 +8,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/log/quality.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/core/csv_cell.hpp"
-#include "lib/fault/label_text.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/text.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 namespace {

@@ -13,7 +13,7 @@ namespace faultline {
 std::string identification_text(const Identification& identification);
 
 /// "fc_2 changes from log to log beyond chance: ...", a line each flagged parameter; one line that says so
-/// when there is none, and nothing when there were too few logs to tell.
+/// when there is none, and nothing when there were too few logs.
 std::vector<std::string> trend_lines(const Identification& identification);
 
 /// What the motion does not show, a line each: what joints lack, parameters that are hardly separable from

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
-#include "lib/core/issue_json.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
-#include "lib/log/runs/log_run_json.hpp"
+#include "lib/log/log_run.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {

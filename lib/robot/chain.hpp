@@ -97,4 +97,18 @@ LinkInertia general_body(double mass, const Eigen::Vector3d& centre,
 LinkInertia seen_from(const LinkInertia& body, const Eigen::Matrix3d& rotation,
                       const Eigen::Vector3d& position);
 
+constexpr const char* position_unit(AxisKind kind) { return kind == AxisKind::revolute ? "rad" : "m"; }
+constexpr const char* velocity_unit(AxisKind kind) { return kind == AxisKind::revolute ? "rad/s" : "m/s"; }
+constexpr const char* torque_unit(AxisKind kind) { return kind == AxisKind::revolute ? "N m" : "N"; }
+constexpr const char* viscous_unit(AxisKind kind) {
+  return kind == AxisKind::revolute ? "N m s/rad" : "N s/m";
+}
+
+/// Returns for each joint whether it is prismatic.
+inline std::vector<bool> sliding_joints(const Chain& chain) {
+  std::vector<bool> slides;
+  for (const auto& joint : chain.geometry) slides.push_back(joint.kind == AxisKind::prismatic);
+  return slides;
+}
+
 }  // namespace faultline

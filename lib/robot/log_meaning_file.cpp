@@ -9,8 +9,8 @@
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/robot/log_preset.hpp"
+#include "lib/robot/robot.hpp"
 #include "lib/robot/robot_file_parts.hpp"
-#include "lib/robot/robot_words.hpp"
 
 namespace faultline {
 namespace {

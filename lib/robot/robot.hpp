@@ -96,4 +96,11 @@ Robot with_tip(Robot robot, const Eigen::Vector3d& tip);
 Robot with_masses_and_lengths(Robot robot, const std::vector<double>& masses,
                               const std::vector<double>& lengths);
 
+const char* to_string(AxisKind kind);
+const char* to_string(LinkShape shape);
+const char* to_string(TorqueMeaning meaning);
+/// Origin of a logged torque in words for legends: "commanded", "measured", "from motor current".
+const char* logged_words(TorqueMeaning meaning);
+const char* to_string(TorqueTiming timing);
+
 }  // namespace faultline

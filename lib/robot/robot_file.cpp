@@ -10,8 +10,8 @@
 #include "lib/robot/dh/denavit_hartenberg.hpp"
 #include "lib/robot/extra_torque_file.hpp"
 #include "lib/robot/nearest_word.hpp"
+#include "lib/robot/robot.hpp"
 #include "lib/robot/robot_file_parts.hpp"
-#include "lib/robot/robot_words.hpp"
 #include "lib/robot/toml/toml_values.hpp"
 
 namespace faultline {

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "lib/robot/extra_torque_file.hpp"
+#include "lib/robot/robot.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/robot/robot_file_parts.hpp"
-#include "lib/robot/robot_words.hpp"
 #include "lib/robot/toml/toml_text.hpp"
 
 namespace faultline {

@@ -109,8 +109,8 @@ TEST(SampleGrid, JointsThatSpeedUpFastLoseNoRow) {
 }
 
 TEST(SampleGrid, StampsWobbleWhereTheyAreRounded) {
-  EXPECT_FALSE(stamps_wobble(stamps(counted(300), {0.0}), kPeriod_s));
-  EXPECT_TRUE(stamps_wobble(stamps(counted(300), {0.0, 0.8, -0.7}), kPeriod_s));
+  EXPECT_FALSE(stamps_jitter(stamps(counted(300), {0.0}), kPeriod_s));
+  EXPECT_TRUE(stamps_jitter(stamps(counted(300), {0.0, 0.8, -0.7}), kPeriod_s));
 }
 
 TEST(SampleGrid, APositionThatJumpsMovesNoRow) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/fault/fault_labels.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "tests/support/hand_made_motion.hpp"
 
 namespace faultline {

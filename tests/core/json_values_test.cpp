@@ -7,6 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "lib/core/error.hpp"
+
 namespace faultline {
 namespace {
 
@@ -46,6 +48,20 @@ TEST(JsonValues, AListRendersItsItemsInOrder) {
   const auto doubled = [](int i) { return nlohmann::json(2 * i); };
   EXPECT_EQ(list_of<nlohmann::json>(std::vector<int>{3, 1}, doubled).dump(), "[6,2]");
   EXPECT_EQ(list_of<nlohmann::ordered_json>(std::vector<int>{}, doubled).dump(), "[]");
+}
+
+TEST(JsonDepth, ListsWithinListsAreRefused) {
+  EXPECT_THROW(refuse_deep_json(std::string(65, '['), "x.json"), Error);
+  EXPECT_THROW(refuse_deep_json("{\"a\": " + std::string(64, '{'), "x.json"), Error);
+  EXPECT_NO_THROW(refuse_deep_json(std::string(64, '[') + std::string(64, ']'), "x.json"));
+}
+
+TEST(JsonDepth, TextIsNotNested) {
+  EXPECT_NO_THROW(
+      refuse_deep_json("[\"" + std::string(100, '[') + "\\\"" + std::string(100, '{') + "\"]", "x"));
+  std::string many;
+  for (int i = 0; i < 1000; ++i) many += "[{}],";
+  EXPECT_NO_THROW(refuse_deep_json("[" + many + "[]]", "x.json"));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include "lib/core/random.hpp"
 #include "lib/diagnose/decision.hpp"
-#include "lib/diagnose/decision_words.hpp"
 #include "tests/cases/example_base.hpp"
 
 namespace faultline {

@@ -6,7 +6,6 @@
 
 #include "lib/classify/episode_features.hpp"
 #include "lib/diagnose/decide_episode.hpp"
-#include "lib/diagnose/describe_episode.hpp"
 #include "tests/support/hand_made_motion.hpp"
 
 namespace faultline {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/diagnose/merge_faults.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/log/recorder/corrected_source.hpp"

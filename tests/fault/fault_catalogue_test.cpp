@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "lib/fault/fault_words.hpp"
@@ -67,6 +68,26 @@ TEST(UnitOf, ATurningJointHasAnglesAndASlidingOneLengths) {
   EXPECT_STREQ(unit_of(SizeMeasure::viscous_friction, true), "N m s/rad");
   EXPECT_STREQ(unit_of(SizeMeasure::viscous_friction, false), "N s/m");
   EXPECT_STREQ(unit_of(SizeMeasure::mass, true), unit_of(SizeMeasure::mass, false));
+}
+
+TEST(FaultLabels, AreEachKindAtEachJointAndThePayloadOfTheLinksWhereItShows) {
+  const auto labels = fault_labels(3, {0, 2}, false);
+  EXPECT_EQ(labels.size(), 9u * 3u + 2u);
+  const auto count = [&](FaultKind kind) {
+    return std::count_if(labels.begin(), labels.end(), [&](const FaultLabel& l) { return l.kind == kind; });
+  };
+  EXPECT_EQ(count(FaultKind::locked), 3);
+  EXPECT_EQ(count(FaultKind::payload_change), 2);
+  EXPECT_TRUE(std::count(labels.begin(), labels.end(), FaultLabel{FaultKind::payload_change, 1}) == 1 &&
+              std::count(labels.begin(), labels.end(), FaultLabel{FaultKind::payload_change, 3}) == 1);
+  EXPECT_EQ(count(FaultKind::none) + count(FaultKind::unknown), 0);
+}
+
+TEST(FaultLabels, ATorqueMeasuredBehindTheDriveHidesItsLoss) {
+  for (const FaultLabel& label : fault_labels(3, {2}, true)) {
+    EXPECT_NE(label.kind, FaultKind::torque_loss);
+    EXPECT_NE(label.kind, FaultKind::free_swinging);
+  }
 }
 
 }  // namespace

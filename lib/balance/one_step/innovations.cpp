@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/balance/one_step/state_count.hpp"
+#include "lib/balance/one_step/linear_steps.hpp"
 
 namespace faultline {
 namespace {

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "lib/balance/one_step/state_count.hpp"
-
 namespace faultline {
 namespace {
 

@@ -23,14 +23,14 @@ std::string render_index_page(const std::vector<BatchRow>& rows, const BatchSumm
 /// parameters[], rows[]}; a row is [log, verdict, model, result, faults, reason, start_s, end_s, period_s,
 /// joints, issues, rows, residual_rms[], residual_peak[], condition, parameters], a fault [label, joint,
 /// onset_s, alarm_s, end_s, confidence], a condition or parameter [name, value, half of its 95 % interval];
-/// models, labels and names by their place in the lists. `time`: all judged logs tell the date.
+/// models, labels and names by their place in the lists. `time`: all judged logs contain the date.
 std::string index_data(const std::vector<BatchRow>& rows, const BatchFacts& facts, bool pages);
 
 /// What is put into every index, embedded when the program is built (embed_assets.cmake).
 std::string_view index_style();
 std::string_view index_script();
 
-/// How residuals and faults went from log to log: by start time when all logs tell the date, else by name.
+/// How residuals and faults went from log to log: by start time when all logs contain the date, else by name.
 /// Many logs share a point, so that no peak is lost. Empty for less than two judged logs.
 std::string index_trends(const std::vector<BatchRow>& rows);
 

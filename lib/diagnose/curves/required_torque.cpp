@@ -10,7 +10,7 @@
 
 #include "lib/explain/day_effects.hpp"
 #include "lib/identify/motion/log_survey.hpp"
-#include "lib/identify/motion/sample_outliers.hpp"
+#include "lib/identify/motion/raw_stretch.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {

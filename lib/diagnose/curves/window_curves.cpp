@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "lib/diagnose/curves/expected_joint.hpp"
+#include <limits>
 
 namespace faultline {
 namespace {
@@ -154,6 +153,16 @@ CurveWindow WindowCurves::curves() const {
   for (const Network& network : networks_)
     out.networks.push_back({network.label, network.mlp.envelope(), network.rbfn.envelope()});
   return out;
+}
+
+ExpectedJoint expected_joint(const HealthyResiduals& healthy, const Log& segment, int row,
+                             const Residuals& residuals, int i, int joint) {
+  ExpectedJoint expected;
+  expected.q = segment.q[joint][row] - residuals.position(joint, i) * healthy.position_rms[joint];
+  expected.dq = segment.dq.empty()
+                    ? std::numeric_limits<double>::quiet_NaN()
+                    : segment.dq[joint][row] - residuals.velocity(joint, i) * healthy.velocity_rms[joint];
+  return expected;
 }
 
 }  // namespace faultline

@@ -4,13 +4,22 @@
 #include <vector>
 
 #include "lib/classify/sample_classifier.hpp"
-#include "lib/diagnose/curves/envelope_builder.hpp"
+#include "lib/diagnose/curves/curves.hpp"
 #include "lib/diagnose/curves/required_torque.hpp"
 #include "lib/log/log.hpp"
 #include "lib/model/model.hpp"
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {
+
+/// The state that was predicted one step ahead for the healthy robot, at the row where the prediction ends.
+struct ExpectedJoint {
+  double q = 0.0, dq = 0.0;  ///< rad or m and per s; dq is NaN without measured velocities
+};
+
+/// Returns prediction `i` of `residuals` for joint `joint` (from 0); it ends at row `row` of the segment.
+ExpectedJoint expected_joint(const HealthyResiduals& healthy, const Log& segment, int row,
+                             const Residuals& residuals, int i, int joint);
 
 /// Gathers the curves of one stretch of a log as segments stream by, in order; the result does not depend on
 /// segment borders.

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lib/diagnose/monitored_episode.hpp"
+#include "lib/diagnose/monitor/monitored_log.hpp"
 #include "lib/explain/signal_stretch.hpp"
 #include "lib/log/log.hpp"
 #include "lib/log/log_run.hpp"

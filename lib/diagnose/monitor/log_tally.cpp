@@ -12,7 +12,7 @@
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/columns/joint_count.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 namespace {

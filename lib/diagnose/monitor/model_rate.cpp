@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/log/resample.hpp"
 #include "lib/log/time_axis.hpp"
 

@@ -10,8 +10,8 @@
 
 #include "lib/diagnose/monitor/explain_monitor.hpp"
 #include "lib/diagnose/monitor/log_tally.hpp"
+#include "lib/diagnose/monitor/monitored_log.hpp"
 #include "lib/diagnose/relation/relation_findings.hpp"
-#include "lib/diagnose/sample_alarm.hpp"
 #include "lib/explain/explain_at.hpp"
 #include "lib/log/log.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"

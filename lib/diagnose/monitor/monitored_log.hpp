@@ -3,14 +3,33 @@
 
 #include <vector>
 
+#include "lib/classify/fault_criterion.hpp"
 #include "lib/diagnose/diagnosis.hpp"
-#include "lib/diagnose/monitored_episode.hpp"
-#include "lib/diagnose/sample_alarm.hpp"
 #include "lib/explain/day_effects.hpp"
+#include "lib/explain/decide_log.hpp"
 #include "lib/explain/signal_stretch.hpp"
+#include "lib/fault/opinion.hpp"
 #include "lib/residual/relation/relation_detector.hpp"
+#include "lib/residual/residuals.hpp"
 
 namespace faultline {
+
+/// A stretch of a log that the healthy robot does not explain, as found by monitoring and before the
+/// decision.
+struct MonitoredEpisode {
+  ExplainedFault fault;
+  double end_s = 0.0;                      ///< when the fault ended, or the last sample that was judged
+  std::vector<JointResidual> residuals{};  ///< of the MLP, by joint, over kEpisodeResiduals_s from the onset
+
+  double onset_s() const { return fault.claim.onset_s; }
+  double alarm_s() const { return fault.alarm_s; }
+};
+
+/// A stretch of a log that the paper's fault criterion calls faulty, with the opinion of each network alone.
+struct SampleAlarm {
+  SampleEpisode episode;
+  Opinions opinions;
+};
 
 /// The result of monitoring a log, before anything is decided.
 struct MonitoredLog {

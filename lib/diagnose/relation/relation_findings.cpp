@@ -8,9 +8,9 @@
 
 #include "lib/core/number_text.hpp"
 #include "lib/diagnose/least_size.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/fault/fault_words.hpp"
-#include "lib/fault/label_text.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 namespace {

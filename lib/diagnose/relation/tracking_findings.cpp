@@ -9,7 +9,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/diagnose/relation/relation_findings.hpp"
 #include "lib/fault/fault_words.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 namespace {

@@ -15,7 +15,7 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/day_arrow.hpp"
-#include "lib/identify/days/payload_columns.hpp"
+#include "lib/identify/parameter_space.hpp"
 #include "lib/identify/physical.hpp"
 #include "lib/robot/dynamics.hpp"
 

@@ -11,9 +11,9 @@
 #include "lib/identify/days/day_arrow.hpp"
 #include "lib/identify/days/draft_rows.hpp"
 #include "lib/identify/days/healthy_day.hpp"
-#include "lib/identify/days/payload_columns.hpp"
 #include "lib/identify/days/refine_terms.hpp"
 #include "lib/identify/days/work_pieces.hpp"
+#include "lib/identify/parameter_space.hpp"
 
 namespace faultline {
 namespace {

@@ -9,7 +9,7 @@
 #include "lib/identify/excitation/excitation.hpp"
 #include "lib/identify/parameter_space.hpp"
 #include "lib/identify/torque_fit.hpp"
-#include "lib/identify/verdict/joint_fit.hpp"
+#include "lib/identify/verdict/residual_pattern.hpp"
 
 namespace faultline {
 namespace {

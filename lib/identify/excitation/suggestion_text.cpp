@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "lib/identify/excitation/suggest_motion.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 #include "lib/robot/toml/toml_text.hpp"
 
 namespace faultline {

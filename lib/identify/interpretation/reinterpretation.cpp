@@ -12,7 +12,7 @@
 #include "lib/core/error.hpp"
 #include "lib/identify/feasible/feasible.hpp"
 #include "lib/identify/gathered.hpp"
-#include "lib/identify/wanted_parameters.hpp"
+#include "lib/identify/parameter_space.hpp"
 #include "lib/identify/weak_form/weak_form.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/plausibility/column_interpretation.hpp"

@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/identify/motion/sample_outliers.hpp"
+#include "lib/identify/motion/raw_stretch.hpp"
 #include "lib/log/derived_velocity.hpp"
 #include "lib/log/velocity_check.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -182,6 +183,19 @@ void check_channels(const LogSource& source, const Log& segment, int joints) {
         "their columns");
 }
 
+constexpr double kOutlier = 20.0;  ///< times the 90 % quantile of the distance from the neighbours' mean
+
+/// Marks samples that are far from the mean of their neighbours while these agree with each other.
+void switch_off_outliers(const Eigen::VectorXd& y, Eigen::VectorXi& off) {
+  const int n = static_cast<int>(y.size());
+  std::vector<double> bends;
+  for (int k = 1; k + 1 < n; ++k) bends.push_back(std::abs(y[k] - 0.5 * (y[k - 1] + y[k + 1])));
+  if (bends.empty()) return;
+  const double usual = std::max(upper_quantile(bends, 0.9), 1e-9 * (1.0 + y.cwiseAbs().mean()));
+  for (int k = 1; k + 1 < n; ++k)
+    if (bends[k - 1] > kOutlier * usual && bends[k - 1] > 2.0 * std::abs(y[k + 1] - y[k - 1])) off[k] = 1;
+}
+
 }  // namespace
 
 StretchSummary for_each_raw_stretch(LogSource& source, int joints, RepeatedRows repeated,
@@ -194,6 +208,19 @@ StretchSummary for_each_raw_stretch(LogSource& source, int joints, RepeatedRows 
     cutter.add(segment);
   }
   return cutter.finish();
+}
+
+JointMotion joint_motion(const RawStretch& s, int joint) {
+  JointMotion m;
+  m.time = s.time;
+  m.q = s.q.row(joint);
+  m.q_off = s.stale;
+  switch_off_outliers(m.q, m.q_off);
+  if (s.dq.size() == 0) return m;
+  m.dq = s.dq.row(joint);
+  m.dq_off = s.stale;
+  switch_off_outliers(m.dq, m.dq_off);
+  return m;
 }
 
 }  // namespace faultline

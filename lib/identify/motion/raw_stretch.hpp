@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "lib/identify/motion/motion_smoother.hpp"
 #include "lib/log/log_source.hpp"
 
 namespace faultline {
@@ -36,5 +37,8 @@ inline constexpr int kStretchRows = 2500;  ///< largest number of rows in a stre
 /// source's segments. Throws Error(input) if the log lacks torque or its joints differ in number.
 StretchSummary for_each_raw_stretch(LogSource& source, int joints, RepeatedRows repeated,
                                     const std::function<void(const RawStretch&)>& visit);
+
+/// Returns the samples of one joint, with outliers and stale rows marked in `q_off` and `dq_off`.
+JointMotion joint_motion(const RawStretch& stretch, int joint);
 
 }  // namespace faultline

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lib/identify/motion/sample_outliers.hpp"
+#include "lib/identify/motion/raw_stretch.hpp"
 
 namespace faultline {
 namespace {

@@ -8,7 +8,6 @@
 #include "lib/identify/identification.hpp"
 #include "lib/identify/parameter_space.hpp"
 #include "lib/identify/torque_fit.hpp"
-#include "lib/identify/verdict/joint_fit.hpp"
 #include "lib/identify/verdict/parameter_trend.hpp"
 #include "lib/identify/verdict/residual_pattern.hpp"
 #include "lib/identify/weak_form/weak_choice.hpp"

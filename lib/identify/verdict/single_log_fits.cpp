@@ -13,8 +13,8 @@
 #include "lib/identify/parameter_space.hpp"
 #include "lib/identify/residual_blocks.hpp"
 #include "lib/identify/torque_fit.hpp"
-#include "lib/identify/verdict/joint_fit.hpp"
 #include "lib/identify/verdict/parameter_trend.hpp"
+#include "lib/identify/verdict/residual_pattern.hpp"
 #include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {

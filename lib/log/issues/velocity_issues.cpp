@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/make_issue.hpp"
+#include "lib/core/issue.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/issues/quality_issues.hpp"

@@ -12,7 +12,6 @@
 
 #include "lib/log/log_channels.hpp"
 #include "lib/log/recorder/stopped_columns_source.hpp"
-#include "lib/log/rows/keep_rows.hpp"
 
 namespace faultline {
 namespace {

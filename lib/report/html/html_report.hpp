@@ -17,7 +17,7 @@ namespace faultline {
 struct ReportDetails {
   RunCurves curves;
   std::vector<FactTable> model;       ///< identified parameters, how good the model is
-  std::vector<FactTable> provenance;  ///< what somebody needs who must repeat the diagnosis
+  std::vector<FactTable> provenance;  ///< facts that a repetition of the diagnosis needs
 };
 
 /// The details of the diagnosis that diagnose() made of this log with this model and options. Reads the log a

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "lib/fault/fault_words.hpp"
-#include "lib/robot/axis_units.hpp"
-#include "lib/robot/robot_words.hpp"
+#include "lib/robot/chain.hpp"
+#include "lib/robot/robot.hpp"
 
 namespace faultline {
 namespace {

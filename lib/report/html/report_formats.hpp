@@ -27,7 +27,7 @@ ReportSource report_source(LogSource& log, const Model& model, const Diagnosis& 
 struct ReportFormat {
   const char* name;       ///< "json"; with "--" before it the option that asks for it
   const char* extension;  ///< of files, ".json"
-  const char* what;       ///< to somebody who may ask for it: "Write " and this
+  const char* what;       ///< for a person who may ask for it: "Write " and this
   bool second_pass;       ///< shows details, so that the log is read a second time
   std::string (*render)(const ReportSource& source);
 };

@@ -5,7 +5,6 @@
 
 #include "lib/classify/episode_features.hpp"
 #include "lib/diagnose/decide_episode.hpp"
-#include "lib/diagnose/describe_episode.hpp"
 #include "lib/diagnose/monitor/monitor.hpp"
 #include "lib/identify/days/fit_coarse_days.hpp"
 #include "lib/log/memory_source.hpp"

@@ -8,8 +8,8 @@
 
 #include "lib/core/text.hpp"
 #include "lib/robot/extra_torque_file.hpp"
+#include "lib/robot/robot.hpp"
 #include "lib/robot/robot_file_parts.hpp"
-#include "lib/robot/robot_words.hpp"
 #include "lib/robot/toml/toml_text.hpp"
 #include "lib/robot/toml/toml_values.hpp"
 

@@ -11,7 +11,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/core/version.hpp"
-#include "lib/diagnose/curves/envelope_builder.hpp"
+#include "lib/diagnose/curves/curves.hpp"
 #include "lib/report/html/elements.hpp"
 #include "lib/report/html/head.hpp"
 

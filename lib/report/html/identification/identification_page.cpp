@@ -12,7 +12,7 @@
 #include "lib/report/html/elements.hpp"
 #include "lib/report/html/head.hpp"
 #include "lib/report/identification_text.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 
 namespace faultline {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "lib/core/text.hpp"
 #include "lib/report/html/identification/identification_page.hpp"
-#include "lib/robot/axis_units.hpp"
+#include "lib/robot/chain.hpp"
 #include "lib/robot/dynamics.hpp"
-#include "lib/robot/robot_words.hpp"
+#include "lib/robot/robot.hpp"
 
 namespace faultline {
 namespace {

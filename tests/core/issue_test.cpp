@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/core/issue_json.hpp"
+#include "lib/core/issue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/counted_time.hpp"
+#include "lib/log/columns/counted_time.hpp"
 
 #include <gtest/gtest.h>
 

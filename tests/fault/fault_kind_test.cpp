@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/fault/label_text.hpp"
+#include "lib/fault/fault_kind.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/diagnose/curves/envelope_builder.hpp"
+#include "lib/diagnose/curves/curves.hpp"
 
 #include <gtest/gtest.h>
 

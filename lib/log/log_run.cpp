@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/runs/log_run_json.hpp"
+#include "lib/log/log_run.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a finding of decide_episode() lists besides its name: alternatives, sizes, numbers.
+#include "lib/diagnose/finding.hpp"
+
 #include <gtest/gtest.h>
 
 #include "tests/diagnose/hand_made_episode.hpp"
@@ -97,6 +99,20 @@ TEST(EpisodeFacts, KeepTheFeaturesUnderTheNamesOfTheCaseBase) {
   EXPECT_EQ(finding.episode.evidence, 64.0);
   ASSERT_EQ(finding.episode.features.size(), features_of(model).size());
   EXPECT_EQ(finding.episode.features.front().first, "behind free_swinging 1");
+}
+
+TEST(LastingFriction, IsFrictionWhoseWholeIntervalIsBeyondTwiceTheNormalRange) {
+  const auto friction = [](double value, double std) {
+    return lasting_friction({{DayEffectKind::friction, 2, value, std, 0.1}}, 0.0, 9.0).size();
+  };
+  EXPECT_EQ(friction(0.5, 0.01), 1u) << "the normal range is 20 %";
+  EXPECT_EQ(friction(0.5, 0.2), 0u) << "the log hardly tells it";
+  EXPECT_EQ(friction(0.35, 0.01), 0u);
+  EXPECT_EQ(friction(-0.9, 0.01), 0u) << "less friction is no fault";
+}
+
+TEST(LastingFriction, OtherEffectsTakeOverFromEachOtherAndAreNone) {
+  EXPECT_TRUE(lasting_friction({{DayEffectKind::torque_gain, 1, 5.0, 0.01, 0.1}}, 0.0, 9.0).empty());
 }
 
 }  // namespace
