@@ -12,9 +12,11 @@ namespace faultline {
 namespace {
 
 constexpr double kPriceOfNumber = 6.0;  // nats of an onset, an end or an edge of a range: ln(20 s / .05 s)
-// Share of the evidence of the visits that a worn spot needs: its friction is not exact near rest. Separate
-// faults leave it far less, since the joint visits their positions at other times, too.
+// Share of the evidence of three or more visits that a worn spot needs: its friction is not exact near rest.
+// Separate faults leave it far less, since the joint visits their positions at other times, too. Two faults
+// may share a range by chance, so that the spot must explain them better.
 constexpr double kAsGood = 0.9;
+constexpr std::size_t kByChance = 2;     // visits that may share a range by chance
 constexpr double kEdgeSearched = 0.15;   // share of the range within which each of its edges is searched
 constexpr int kEdgeRounds = 7;           // of the golden section
 constexpr double kLeastOutside = 0.1;    // share of the rows since the onset that lie outside a worn spot
@@ -122,7 +124,8 @@ std::vector<ExplainedFault> without_worn_spots(const UniformLog& log, const Bala
     all.insert(all.end(), visits.begin(), visits.end());
     const RowNoise noise = LogFit(log, model, all).noise();
     const LogFit together(log, model, all, noise), without(log, model, others, noise);
-    if (gain_of_spot(without, visits, joint) > kAsGood * gain_of_visits(together, without, visits))
+    const double share = visits.size() > kByChance ? kAsGood : 1.0;
+    if (gain_of_spot(without, visits, joint) > share * gain_of_visits(together, without, visits))
       faults = with_one_spot(std::move(faults), joint);
   }
   return faults;
