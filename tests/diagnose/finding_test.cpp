@@ -106,7 +106,7 @@ TEST(LastingFriction, IsFrictionWhoseWholeIntervalIsBeyondTwiceTheNormalRange) {
     return lasting_friction({{DayEffectKind::friction, 2, value, std, 0.1}}, 0.0, 9.0).size();
   };
   EXPECT_EQ(friction(0.5, 0.01), 1u) << "the normal range is 20 %";
-  EXPECT_EQ(friction(0.5, 0.2), 0u) << "the log hardly tells it";
+  EXPECT_EQ(friction(0.5, 0.2), 0u) << "the log hardly determines it";
   EXPECT_EQ(friction(0.35, 0.01), 0u);
   EXPECT_EQ(friction(-0.9, 0.01), 0u) << "less friction is no fault";
 }
