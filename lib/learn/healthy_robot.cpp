@@ -74,10 +74,8 @@ bool has_doubtful_delay(const Identification& identification, const Robot& robot
          identification.robot.torque_delay_s != robot.torque_delay_s;
 }
 
-TorqueTiming timing_of(const HealthyRobot& robot) { return robot.model.robot.log.torque_between_samples; }
-
 FittedDays fitted_days(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
-  return fit_days(days, robot.identification.space, timing_of(robot));
+  return fit_days(days, robot.identification.space, torque_between_samples(robot.model.robot));
 }
 
 /// Learns the robot at a coarse rate from all logs, and without each of them in turn.
@@ -94,8 +92,8 @@ void learn_steps(HealthyRobot& robot, const std::vector<LogSource*>& days, int t
     std::vector<LogSource*> kept;
     for (int k = 0; k < count; ++k)
       if (k != left_out) kept.push_back(own.emplace_back(std::make_unique<MemorySource>(copies[k])).get());
-    RobotRows learned =
-        fit_coarse_days(kept, robot.model.robot, robot.identification.space, timing_of(robot));
+    RobotRows learned = fit_coarse_days(kept, robot.model.robot, robot.identification.space,
+                                        torque_between_samples(robot.model.robot));
     (left_out < count ? without[left_out] : robot.model.explain.robot) = std::move(learned);
   });
   robot.without = std::move(without);
@@ -176,7 +174,8 @@ std::vector<LogSource*> pointers(std::deque<DelayedTorqueSource>& logs) {
 
 RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
   if (std::holds_alternative<BalanceModel>(robot.model.explain.robot)) return fitted_days(robot, days).model;
-  return fit_coarse_days(days, robot.model.robot, robot.identification.space, timing_of(robot));
+  return fit_coarse_days(days, robot.model.robot, robot.identification.space,
+                         torque_between_samples(robot.model.robot));
 }
 
 HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,

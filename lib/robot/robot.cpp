@@ -11,6 +11,10 @@
 namespace faultline {
 namespace {
 
+// Share of the way from one logged torque to the next (phi): a smaller one is nearer to a held torque, phi =
+// 0, than to a torque that changes many times on the way, phi = 1/2.
+constexpr double kNearlyHeld = 0.25;
+
 /// Whether the last R directly after a P, behind an arm of two or more R, is a tool's wrist, as in RRPR.
 bool ends_in_wrist(const std::string& axes) {
   return axes.ends_with("PR") && std::count(axes.begin(), axes.end(), 'R') > 2;
@@ -128,6 +132,12 @@ const char* to_string(TorqueTiming timing) {
       return "unknown";
   }
   return "";
+}
+
+TorqueTiming torque_between_samples(const Robot& robot) {
+  const TorqueTiming stated = robot.log.torque_between_samples;
+  if (stated != TorqueTiming::unknown || !robot.torque_phi) return stated;
+  return *robot.torque_phi < kNearlyHeld ? TorqueTiming::held : TorqueTiming::linear;
 }
 
 }  // namespace faultline

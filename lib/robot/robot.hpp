@@ -103,4 +103,8 @@ const char* to_string(TorqueMeaning meaning);
 const char* logged_words(TorqueMeaning meaning);
 const char* to_string(TorqueTiming timing);
 
+/// Returns the course of the torque between two samples of this robot's logs: as the robot file states it or,
+/// where it does not, the nearer one to the identified timing; unknown without either.
+TorqueTiming torque_between_samples(const Robot& robot);
+
 }  // namespace faultline

@@ -64,6 +64,17 @@ TEST(RobotFile, AxesAloneAreEnough) {
   EXPECT_FALSE(robot.identified);
 }
 
+TEST(TorqueBetweenSamples, IsAsStatedOrElseNearestToTheIdentifiedTiming) {
+  Robot robot = robot_from_toml("axes = \"RRP\"", "r.toml");
+  EXPECT_EQ(torque_between_samples(robot), TorqueTiming::unknown);
+  robot.torque_phi = 0.02;
+  EXPECT_EQ(torque_between_samples(robot), TorqueTiming::held);
+  robot.torque_phi = 0.5;
+  EXPECT_EQ(torque_between_samples(robot), TorqueTiming::linear);
+  robot.log.torque_between_samples = TorqueTiming::held;
+  EXPECT_EQ(torque_between_samples(robot), TorqueTiming::held);
+}
+
 TEST(RobotFile, WhatIsNormalHasDefaultsAndIsKept) {
   EXPECT_EQ(robot_from_toml("axes = \"RRP\"", "r.toml").normal, NormalRange{});
   const Robot robot = robot_from_toml(

@@ -12,6 +12,7 @@
 #include "lib/identify/days/draft_rows.hpp"
 #include "lib/identify/days/healthy_day.hpp"
 #include "lib/identify/days/refine_terms.hpp"
+#include "lib/identify/days/row_scale.hpp"
 #include "lib/identify/days/work_pieces.hpp"
 #include "lib/identify/parameter_space.hpp"
 
@@ -21,13 +22,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Kernel of the rows, standard deviation: the longer one for sample periods from kHighRate_s on.
-constexpr double kHighRate_s = 0.005, kKernelAtHighRate_s = 0.012, kKernel_s = 0.016;
-constexpr double kFinest_s = 0.002;   // between samples: the kernels cannot resolve finer ones
-constexpr double kSlackOfRate = 0.1;  // samples: a period is known to some per cent
-constexpr double kRowKernels = 2.0;   // kernels between two rows: finer rows repeat each other
-constexpr int kFilterOrder = 3;       // of the autoregression of the rows
-constexpr int kFitRounds = 10;        // each fits parameters, days and noise in turn
+constexpr double kRowKernels = 2.0;  // kernels between two rows: finer rows repeat each other
+constexpr int kFilterOrder = 3;      // of the autoregression of the rows
+constexpr int kFitRounds = 10;       // each fits parameters, days and noise in turn
 // Rounds of the fit from which another term is tried: later terms need the earlier ones.
 constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRotorsFrom = 5, kRowsUntil = 6;
 constexpr int kWidthsAt[] = {3, 6};  // rounds that refine the friction widths
@@ -54,11 +51,6 @@ struct EffectStd {
 constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1, 0.1, 0.03, 0.1};
 constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02, 0.01, 3e-3, 0.01};
 constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.05, 0.03, 0.3};
-
-/// Returns how many recorded samples are averaged into one sample of the rows.
-int samples_averaged(double period_s) {
-  return std::max(1, static_cast<int>(kFinest_s / period_s + kSlackOfRate));
-}
 
 /// Returns the model with ranges, top speeds, noise and repeated positions of the healthy logs.
 BalanceModel with_healthy_motion(const std::vector<HealthyDay>& days, BalanceModel m) {
@@ -98,18 +90,18 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   const bool is_held = torque_between_samples == TorqueTiming::held;
   std::vector<UniformLog> uniform = uniform_logs(logs);
   const std::vector<bool> derived = derived_velocities(uniform);
-  const int samples = samples_averaged(uniform.front().period_s);
-  for (UniformLog& log : uniform) log = averaged(std::move(log), samples, is_held);
+  const RowScale scale = row_scale(uniform, derived);
+  for (UniformLog& log : uniform) log = averaged(std::move(log), scale.averaged, is_held);
   DayDraft draft;
   BalanceModel& m = draft.model;
   m.rigid = {space.chain, space.lift};
   m.payload = payload_columns(space);
-  const double kernel = uniform.front().period_s < kHighRate_s ? kKernelAtHighRate_s : kKernel_s;
-  m.setting = draft_setting(uniform, kernel, kRowKernels * kernel);
+  m.setting = draft_setting(uniform, scale.kernel_s, kRowKernels * scale.kernel_s);
+  m.setting.friction_s = scale.friction_s;
   for (int j = 0; j < m.setting.joints(); ++j)
     if (derived[j]) m.setting.fusion[j] = 0.0;
   m.setting.torque_is_held = is_held;
-  m.setting.averaged = samples;
+  m.setting.averaged = scale.averaged;
   for (const UniformLog& log : uniform) draft.days.push_back({.log = log});
   m = with_healthy_motion(draft.days, std::move(m));
   m.stiction = VectorXd::Zero(m.joints());

@@ -14,23 +14,13 @@ namespace {
 constexpr std::uint64_t kDrawStream = 7;
 constexpr std::uint64_t kAttemptSeeds = 500'000'000'000;  // more seeds than one learning uses
 
-// Share of the way from one logged torque to the next (phi): a smaller one is nearer to a held torque, phi =
-// 0, than to a torque that changes many times on the way, phi = 1/2.
-constexpr double kNearlyHeld = 0.25;
-
 // Samples that a run must reach to be used: a few after the onset, or nearly all of a healthy one.
 constexpr double kNeededAfterOnset = 3.0;  // after the onset
 constexpr double kSpareAtTheEnd = 2.0;     // before the end of a healthy run
 
-/// Whether the logged torque acts until the next row rather than changing on the way.
-bool torque_is_held(const Robot& robot) {
-  if (robot.log.torque_between_samples == TorqueTiming::held) return true;
-  return robot.torque_phi && *robot.torque_phi < kNearlyHeld;
-}
-
 double control_period_s(const Twin& twin) {
   const double wanted = twin.options.control_period_s;
-  const bool held = torque_is_held(twin.identification->robot);
+  const bool held = torque_between_samples(twin.identification->robot) == TorqueTiming::held;
   if (held || twin.sample_period_s <= wanted) return twin.sample_period_s;
   return twin.sample_period_s / std::round(twin.sample_period_s / wanted);
 }

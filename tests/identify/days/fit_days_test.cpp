@@ -22,7 +22,10 @@ constexpr double kStiffness = 3000.0;  // N m/rad
 struct Joint {
   double drive_inertia = 0.0, link_inertia = 1.2;  ///< kg m^2; without a drive's, the gear is rigid
   double coulomb = 3.0;                            ///< N m; viscous friction: a third of it a rad/s
+  double encoder_step = 0.0;  ///< rad; above 0, the velocity is the difference of its positions
 };
+
+double rounded(double q, double step) { return step > 0.0 ? step * std::round(q / step) : q; }
 
 constexpr double kWidth = 0.01;  // rad/s
 constexpr double kBandwidth = 12.0;
@@ -54,8 +57,10 @@ Log day(const Joint& joint, double period_s, std::uint64_t seed) {
         inertia * (ddr + kBandwidth * kBandwidth * (r - q[0]) + 2.0 * kBandwidth * (dr - dq[0])) +
         friction(joint.coulomb, dr);
     log.time.push_back(t);
-    log.q[0].push_back(q[0] + 2e-5 * random.normal());
-    log.dq[0].push_back(dq[0] + 2e-3 * random.normal());
+    log.q[0].push_back(rounded(q[0] + 2e-5 * random.normal(), joint.encoder_step));
+    const double before = log.q[0].size() > 1 ? log.q[0].end()[-2] : log.q[0].back();
+    const double measured = dq[0] + 2e-3 * random.normal();
+    log.dq[0].push_back(joint.encoder_step > 0.0 ? (log.q[0].back() - before) / period_s : measured);
     log.tau[0].push_back(tau);
     for (int i = 0; i < std::lround(period_s / kStep_s); ++i) {
       if (is_rigid) {
@@ -93,6 +98,14 @@ TEST(FitDays, AGearThatGivesWayHasItsCompliance) {
   const BalanceModel model = fitted(joint, 0.002);
   EXPECT_NEAR(model.compliance(0) * kStiffness, 1.0, 0.2);
   EXPECT_NEAR(model.setting.compliance[0] / model.compliance(0), 1.0, 0.01);
+}
+
+TEST(FitDays, ACoarseEncoderDoesNotMakeTheInertiaSmaller) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const BalanceModel model = fitted({.encoder_step = kTurn / 2000.0}, 0.002);
+  EXPECT_GT(model.setting.kernel_s, 0.02);
+  EXPECT_NEAR(model.theta[0], 1.2, 0.02);
+  EXPECT_NEAR(model.theta[model.layout().coulomb(0)], 3.0, 0.1);
 }
 
 TEST(DraftSetting, AVelocityWithoutNoiseGivesAFiniteVelocity) {
