@@ -3,17 +3,20 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <sstream>
 
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/toml/toml_depth.hpp"
-#include "lib/robot/toml/toml_table_data.hpp"
 
 namespace faultline {
-
 namespace {
 
 const toml::table& empty_table() {
@@ -21,7 +24,78 @@ const toml::table& empty_table() {
   return table;
 }
 
+/// Returns a value as messages quote it.
+std::string shown(const toml::node& node) {
+  std::ostringstream out;
+  node.visit([&](const auto& value) {
+    if constexpr (toml::is_value<decltype(value)>)
+      out << value;
+    else if constexpr (toml::is_array<decltype(value)>)
+      out << "a list";
+    else
+      out << "a table";
+  });
+  return out.str();
+}
+
 }  // namespace
+
+struct TomlTable::Data {
+  std::shared_ptr<const toml::table> root;  ///< keeps the nodes alive
+  const toml::table* table = nullptr;
+  std::string where;   ///< the file
+  std::string prefix;  ///< "log.columns." for the keys of [log.columns]
+  std::set<std::string> asked;
+  std::vector<std::shared_ptr<Data>> children;
+
+  const toml::node* find(const std::string& key);
+  /// Returns the value of a key; fails with `expected` in the message if the key is absent.
+  const toml::node& required(const std::string& key, const char* expected);
+  /// Returns the finite number in `node`; otherwise fails with the value found.
+  double as_number(const std::string& key, const toml::node& node) const;
+  std::shared_ptr<Data> child(const toml::table& of, const std::string& name);
+  std::string place(const std::string& key) const;
+  [[noreturn]] void fail(const std::string& key, const std::string& message) const;
+};
+
+const toml::node* TomlTable::Data::find(const std::string& key) {
+  asked.insert(key);
+  return table->get(key);
+}
+
+const toml::node& TomlTable::Data::required(const std::string& key, const char* expected) {
+  if (const toml::node* node = find(key)) return *node;
+  std::vector<std::string> present;
+  for (const auto& [name, node] : *table) present.emplace_back(name.str());
+  const std::string near = nearest_word(key, present);
+  fail("", fmt::format("the key {}{} is missing; expected {}{}", prefix, key, expected,
+                       near.empty() ? "" : fmt::format(". Is \"{}\" a misspelling of it?", near)));
+}
+
+double TomlTable::Data::as_number(const std::string& key, const toml::node& node) const {
+  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!value || !std::isfinite(*value))
+    fail(key, fmt::format("expected a finite number, found {}", shown(node)));
+  return *value;
+}
+
+std::shared_ptr<TomlTable::Data> TomlTable::Data::child(const toml::table& of, const std::string& name) {
+  auto data = std::make_shared<Data>(Data{root, &of, where, prefix + name + ".", {}, {}});
+  children.push_back(data);
+  return data;
+}
+
+std::string TomlTable::Data::place(const std::string& key) const {
+  const toml::node* node = key.empty() ? table : table->get(key);
+  const auto line = (node ? node : table)->source().begin.line;
+  std::string name = prefix + key;
+  if (key.empty() && !name.empty()) name.pop_back();  // the table itself
+  return where + (line ? fmt::format(", line {}", line) : "") + (name.empty() ? "" : ", key " + name);
+}
+
+void TomlTable::Data::fail(const std::string& key, const std::string& message) const {
+  throw Error(ErrorCode::usage, place(key), message);
+}
 
 TomlTable TomlTable::parse(const std::string& text, const std::string& where) {
   if (const auto place = too_deep(text))
@@ -46,16 +120,15 @@ std::vector<std::string> TomlTable::keys() const {
 }
 
 bool TomlTable::is_table(const std::string& key) const {
-  const toml::node* node = data_->table->get(key);
-  return node && node->is_table();
+  return data_->table->get_as<toml::table>(key) != nullptr;
 }
+
 bool TomlTable::is_text(const std::string& key) const {
-  const toml::node* node = data_->table->get(key);
-  return node && node->is_string();
+  return data_->table->get_as<std::string>(key) != nullptr;
 }
+
 bool TomlTable::is_array(const std::string& key) const {
-  const toml::node* node = data_->table->get(key);
-  return node && node->is_array();
+  return data_->table->get_as<toml::array>(key) != nullptr;
 }
 
 double TomlTable::number(const std::string& key) const {
@@ -102,6 +175,63 @@ std::string TomlTable::choice(const std::string& key, const std::vector<std::str
   const std::string near = nearest_word(value, choices);
   fail(key, fmt::format("expected one of \"{}\", found \"{}\"{}", fmt::join(choices, "\", \""), value,
                         near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+}
+
+std::vector<double> TomlTable::numbers(const std::string& key, int count) const {
+  const std::string expected = count < 0 ? "a list of numbers" : "a list of " + counted(count, "number");
+  const toml::node& node = data_->required(key, expected.c_str());
+  const toml::array* list = node.as_array();
+  if (!list) fail(key, fmt::format("expected {}, found {}", expected, shown(node)));
+  if (count >= 0 && list->size() != static_cast<std::size_t>(count))
+    fail(key, fmt::format("expected {}, found {} of them", expected, list->size()));
+  std::vector<double> values;
+  for (const toml::node& item : *list) values.push_back(data_->as_number(key, item));
+  return values;
+}
+
+std::vector<std::vector<double>> TomlTable::number_rows(const std::string& key, int count) const {
+  const std::string expected = fmt::format("a list of lists of {} numbers", count);
+  const toml::node& node = data_->required(key, expected.c_str());
+  std::vector<std::vector<double>> rows;
+  if (!node.is_array()) fail(key, fmt::format("expected {}, found {}", expected, shown(node)));
+  for (const toml::node& row : *node.as_array()) {
+    if (!row.is_array() || row.as_array()->size() != static_cast<std::size_t>(count))
+      fail(key, fmt::format("expected {}, found another row in it", expected));
+    rows.emplace_back();
+    for (const toml::node& item : *row.as_array()) rows.back().push_back(data_->as_number(key, item));
+  }
+  return rows;
+}
+
+std::vector<double> TomlTable::each(const std::string& key, int count) const {
+  if (is_array(key)) return numbers(key, count);
+  return std::vector<double>(count, number(key));
+}
+
+std::vector<std::string> TomlTable::texts(const std::string& key) const {
+  const toml::node& node = data_->required(key, "a list of texts in quotes");
+  if (!node.is_array()) fail(key, fmt::format("expected a list of texts, found {}", shown(node)));
+  std::vector<std::string> values;
+  for (const toml::node& item : *node.as_array()) {
+    if (!item.is_string()) fail(key, fmt::format("expected texts in quotes, found {} in it", shown(item)));
+    values.push_back(*item.value<std::string>());
+  }
+  return values;
+}
+
+std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
+  const toml::node* node = data_->find(key);
+  std::vector<TomlTable> result;
+  if (!node) return result;
+  const toml::array* list = node->as_array();
+  if (!list) fail(key, fmt::format("expected a list of tables ([[{}]]), found {}", key, shown(*node)));
+  for (const toml::node& item : *list) {
+    if (!item.is_table())
+      fail(key, fmt::format("expected a list of tables ([[{}]]), found {} in it", key, shown(item)));
+    result.push_back(
+        TomlTable(data_->child(*item.as_table(), fmt::format("{}[{}]", key, result.size() + 1))));
+  }
+  return result;
 }
 
 TomlTable TomlTable::table(const std::string& key) const {
