@@ -13,42 +13,43 @@ namespace {
 /// tanh to 1e-16 absolute, about twice as fast as libm's.
 double fast_tanh(double x) { return 1.0 - 2.0 / (elementary::exp(2.0 * x) + 1.0); }
 
+/// Calls visit(k, c, s) for each revolute body k before body i, from the nearest one to the base; c and s are
+/// cosine and sine of theta_i - theta_k.
+template <typename Visit>
+void for_bodies_before(int i, const FastDynamics::Pose& pose, const Visit& visit) {
+  if (i == 0) return;
+  double s = pose.sine[i], c = pose.cosine[i];
+  for (int k = i - 1;; --k) {
+    visit(k, c, s);
+    if (k == 0) return;
+    const double c_next = c * pose.cosine[k] - s * pose.sine[k];
+    s = s * pose.cosine[k] + c * pose.sine[k];
+    c = c_next;
+  }
+}
+
 }  // namespace
 
-void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, double* inertia,
-                                           double* bias) const {
-  const int n = joints_;
-  for (int i = 0; i < n * n; ++i) inertia[i] = 0.0;
+void FastDynamics::planar_inertia_and_bias(const JointVector& q, const JointVector& dq, JointMatrix& inertia,
+                                           JointVector& bias) const {
+  inertia.setZero(joints_, joints_);
+  bias.resize(joints_);
+  const Pose at = pose(q);
   PerJoint<PerJoint<double>> a;  // A_ij
-  PerJoint<double> rate, torque, cosine, sine;
-  double w = 0.0, theta = 0.0;
+  PerJoint<double> rate, torque;
+  double w = 0.0;
   for (int i = 0; i < revolute_; ++i) {
-    const int joint = revolute_joint_[i];
-    w += sign_[joint] * dq[joint];
+    w += sign_[revolute_joint_[i]] * dq[revolute_joint_[i]];
     rate[i] = w;
-    torque[i] = 0.0;
+    torque[i] = gravity_on(i, at);
     a[i][i] = bodies_.diagonal[i];
-    if (gravity_in_plane_) {
-      theta += sign_[joint] * q[joint];
-      const auto [up, along] = elementary::sin_cos(theta);
-      torque[i] = bodies_.gravity[i].alpha * along + bodies_.gravity[i].beta * up;
-    }
-    if (i == 0) continue;
-    const double angle = sign_[joint] * q[joint];
-    auto [s, c] = elementary::sin_cos(angle);
-    cosine[i] = c;
-    sine[i] = s;
-    for (int k = i - 1;; --k) {  // c, s: cosine and sine of theta_i - theta_k
+    for_bodies_before(i, at, [&](int k, double c, double s) {
       const Pair& pair = bodies_.pairs[k][i];
       a[k][i] = pair.alpha * c + pair.beta * s;
       const double slope = pair.beta * c - pair.alpha * s;
       torque[k] += slope * rate[i] * rate[i];
       torque[i] -= slope * rate[k] * rate[k];
-      if (k == 0) break;
-      const double c_next = c * cosine[k] - s * sine[k];
-      s = s * cosine[k] + c * sine[k];
-      c = c_next;
-    }
+    });
   }
   // Converts absolute link angles to joint angles: entry (i, j) sums all bodies at or beyond both joints.
   PerJoint<double> column{};  // sum over l >= j of A_kl, for each k
@@ -63,48 +64,52 @@ void FastDynamics::planar_inertia_and_bias(const double* q, const double* dq, do
       sum += column[k];
       if (k > j) continue;
       const int other = revolute_joint_[k];
-      inertia[joint * n + other] = inertia[other * n + joint] = sign_[joint] * sign_[other] * sum;
+      inertia(joint, other) = inertia(other, joint) = sign_[joint] * sign_[other] * sum;
     }
   }
-  add_prismatic(inertia, bias);
-  for (int i = 0; i < n; ++i) inertia[i * n + i] += bodies_.rotor_inertia[i];
-}
-
-void FastDynamics::add_prismatic(double* inertia, double* bias) const {
   for (int i = 0; i < prismatic_; ++i) {
     const int joint = prismatic_joint_[i];
     bias[joint] = bodies_.weight[joint];
     for (int k = 0; k <= i; ++k) {
       const int other = prismatic_joint_[k];
-      inertia[joint * joints_ + other] = inertia[other * joints_ + joint] =
+      inertia(joint, other) = inertia(other, joint) =
           sign_[joint] * sign_[other] * bodies_.carried_mass[joint];
     }
   }
+  for (int i = 0; i < joints_; ++i) inertia(i, i) += bodies_.rotor_inertia[i];
+}
+
+double FastDynamics::gravity_on(int i, const Pose& pose) const {
+  if (!gravity_in_plane_) return 0.0;
+  return bodies_.gravity[i].alpha * pose.along[i] + bodies_.gravity[i].beta * pose.up[i];
+}
+
+void FastDynamics::add_slides_and_rotors(const JointVector& motion, JointVector& sum) const {
+  for (int i = 0; i < prismatic_; ++i) {
+    const int joint = prismatic_joint_[i];
+    for (int k = 0; k < prismatic_; ++k) {
+      const int other = prismatic_joint_[k];
+      sum[joint] += sign_[joint] * sign_[other] * bodies_.carried_mass[prismatic_joint_[std::max(i, k)]] *
+                    motion[other];
+    }
+  }
+  for (int i = 0; i < joints_; ++i) sum[i] += bodies_.rotor_inertia[i] * motion[i];
 }
 
 void FastDynamics::momentum_and_force(const JointVector& q, const JointVector& dq, JointVector& momentum,
                                       JointVector& force) const {
   if (!planar_) return spatial_.momentum_and_force(q, dq, momentum, force);
-  momentum.resize(joints_);
+  momentum.setZero(joints_);
   force.resize(joints_);
-  PerJoint<double> rate, of_body, push, cosine, sine;  // of each revolute body, in absolute angles
-  double w = 0.0, theta = 0.0;
+  const Pose at = pose(q);
+  PerJoint<double> rate, of_body, push;  // of each revolute body, in absolute angles
+  double w = 0.0;
   for (int i = 0; i < revolute_; ++i) {
-    const int joint = revolute_joint_[i];
-    w += sign_[joint] * dq[joint];
+    w += sign_[revolute_joint_[i]] * dq[revolute_joint_[i]];
     rate[i] = w;
     of_body[i] = bodies_.diagonal[i] * w;
-    push[i] = 0.0;
-    if (gravity_in_plane_) {
-      theta += sign_[joint] * q[joint];
-      const auto [up, along] = elementary::sin_cos(theta);
-      push[i] = -(bodies_.gravity[i].alpha * along + bodies_.gravity[i].beta * up);
-    }
-    if (i == 0) continue;
-    auto [s, c] = elementary::sin_cos(sign_[joint] * q[joint]);
-    cosine[i] = c;
-    sine[i] = s;
-    for (int k = i - 1;; --k) {  // c, s: cosine and sine of theta_i - theta_k
+    push[i] = -gravity_on(i, at);
+    for_bodies_before(i, at, [&](int k, double c, double s) {
       const Pair& pair = bodies_.pairs[k][i];
       const double a = pair.alpha * c + pair.beta * s;
       const double slope = (pair.beta * c - pair.alpha * s) * rate[i] * rate[k];
@@ -112,11 +117,7 @@ void FastDynamics::momentum_and_force(const JointVector& q, const JointVector& d
       of_body[i] += a * rate[k];
       push[k] -= slope;
       push[i] += slope;
-      if (k == 0) break;
-      const double c_next = c * cosine[k] - s * sine[k];
-      s = s * cosine[k] + c * sine[k];
-      c = c_next;
-    }
+    });
   }
   double p = 0.0, f = 0.0;  // momentum and force of all bodies at or beyond a joint
   for (int j = revolute_ - 1; j >= 0; --j) {
@@ -124,28 +125,16 @@ void FastDynamics::momentum_and_force(const JointVector& q, const JointVector& d
     momentum[joint] = sign_[joint] * (p += of_body[j]);
     force[joint] = sign_[joint] * (f += push[j]);
   }
-  for (int i = 0; i < prismatic_; ++i) {
-    const int joint = prismatic_joint_[i];
-    force[joint] = -bodies_.weight[joint];
-    momentum[joint] = 0.0;
-    for (int k = 0; k < prismatic_; ++k) {
-      const int other = prismatic_joint_[k];
-      momentum[joint] +=
-          sign_[joint] * sign_[other] * bodies_.carried_mass[prismatic_joint_[std::max(i, k)]] * dq[other];
-    }
-  }
-  for (int i = 0; i < joints_; ++i) momentum[i] += bodies_.rotor_inertia[i] * dq[i];
+  for (int i = 0; i < prismatic_; ++i) force[prismatic_joint_[i]] = -bodies_.weight[prismatic_joint_[i]];
+  add_slides_and_rotors(dq, momentum);
 }
 
 void FastDynamics::inertia_and_bias(const JointVector& q, const JointVector& dq, JointMatrix& inertia,
                                     JointVector& bias) const {
-  if (planar_) {
-    inertia.resize(joints_, joints_);
-    bias.resize(joints_);
-    planar_inertia_and_bias(q.data(), dq.data(), inertia.data(), bias.data());
-  } else {
+  if (planar_)
+    planar_inertia_and_bias(q, dq, inertia, bias);
+  else
     spatial_.inertia_and_bias(q, dq, inertia, bias);
-  }
   if (!chain_.shared_drives.empty()) add_shared_rotors(chain_, inertia);
 }
 
@@ -176,20 +165,13 @@ JointVector FastDynamics::planar_torque(const Pose& pose, const JointVector& dq,
     rate += sign_[joint] * dq[joint];
     square[i] = rate * rate;
     turn[i] = sum += sign_[joint] * ddq[joint];
-    torque[i] = bodies_.diagonal[i] * turn[i];
-    if (gravity_in_plane_)
-      torque[i] += bodies_.gravity[i].alpha * pose.along[i] + bodies_.gravity[i].beta * pose.up[i];
-    double s = i > 0 ? pose.sine[i] : 0.0, c = i > 0 ? pose.cosine[i] : 1.0;
-    for (int k = i - 1; k >= 0; --k) {  // c, s: cosine and sine of theta_i - theta_k
+    torque[i] = bodies_.diagonal[i] * turn[i] + gravity_on(i, pose);
+    for_bodies_before(i, pose, [&](int k, double c, double s) {
       const Pair& pair = bodies_.pairs[k][i];
       const double a = pair.alpha * c + pair.beta * s, slope = pair.beta * c - pair.alpha * s;
       torque[k] += a * turn[i] + slope * square[i];
       torque[i] += a * turn[k] - slope * square[k];
-      if (k == 0) break;
-      const double c_next = c * pose.cosine[k] - s * pose.sine[k];
-      s = s * pose.cosine[k] + c * pose.sine[k];
-      c = c_next;
-    }
+    });
   }
   JointVector out(joints_);
   double collected = 0.0;  // torque on all bodies at or beyond a joint
@@ -197,16 +179,8 @@ JointVector FastDynamics::planar_torque(const Pose& pose, const JointVector& dq,
     const int joint = revolute_joint_[j];
     out[joint] = sign_[joint] * (collected += torque[j]);
   }
-  for (int i = 0; i < prismatic_; ++i) {
-    const int joint = prismatic_joint_[i];
-    out[joint] = bodies_.weight[joint];
-    for (int k = 0; k < prismatic_; ++k) {
-      const int other = prismatic_joint_[k];
-      out[joint] +=
-          sign_[joint] * sign_[other] * bodies_.carried_mass[prismatic_joint_[std::max(i, k)]] * ddq[other];
-    }
-  }
-  for (int i = 0; i < joints_; ++i) out[i] += bodies_.rotor_inertia[i] * ddq[i];
+  for (int i = 0; i < prismatic_; ++i) out[prismatic_joint_[i]] = bodies_.weight[prismatic_joint_[i]];
+  add_slides_and_rotors(ddq, out);
   return out;
 }
 

@@ -75,8 +75,12 @@ class FastDynamics {
   };
 
   void set_up_planar(const Eigen::Vector3d& normal);
-  void planar_inertia_and_bias(const double* q, const double* dq, double* inertia, double* bias) const;
-  void add_prismatic(double* inertia, double* bias) const;
+  void planar_inertia_and_bias(const JointVector& q, const JointVector& dq, JointMatrix& inertia,
+                               JointVector& bias) const;
+  /// Gravity torque on revolute body i.
+  double gravity_on(int i, const Pose& pose) const;
+  /// Adds the products of `motion` with the inertia of the prismatic joints and of the rotors.
+  void add_slides_and_rotors(const JointVector& motion, JointVector& sum) const;
 
   Chain chain_;
   int joints_ = 0;
