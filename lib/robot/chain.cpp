@@ -14,38 +14,23 @@ Eigen::Matrix3d point_inertia(const Eigen::Vector3d& v) {
 }  // namespace
 
 LinkInertia uniform_rod(double mass, double length, const Eigen::Vector3d& direction) {
-  LinkInertia link;
-  link.mass = mass;
-  link.first_moment = 0.5 * mass * length * direction;
-  link.inertia = mass * length * length / 3.0 * point_inertia(direction);
-  return link;
+  return {mass, 0.5 * mass * length * direction, mass * length * length / 3.0 * point_inertia(direction)};
 }
 
-LinkInertia point_mass(double mass) {
-  LinkInertia link;
-  link.mass = mass;
-  return link;
-}
+LinkInertia point_mass(double mass) { return {.mass = mass}; }
 
 LinkInertia general_body(double mass, const Eigen::Vector3d& centre,
                          const Eigen::Matrix3d& inertia_at_centre) {
-  LinkInertia link;
-  link.mass = mass;
-  link.first_moment = mass * centre;
-  link.inertia = inertia_at_centre + mass * point_inertia(centre);
-  return link;
+  return {mass, mass * centre, inertia_at_centre + mass * point_inertia(centre)};
 }
 
 LinkInertia seen_from(const LinkInertia& body, const Eigen::Matrix3d& rotation,
                       const Eigen::Vector3d& position) {
   const Eigen::Vector3d turned = rotation * body.first_moment, &p = position;
-  LinkInertia seen;
-  seen.mass = body.mass;
-  seen.first_moment = turned + body.mass * p;
-  seen.inertia = rotation * body.inertia * rotation.transpose() + body.mass * point_inertia(p) +
-                 2.0 * p.dot(turned) * Eigen::Matrix3d::Identity() - p * turned.transpose() -
-                 turned * p.transpose();
-  return seen;
+  return {body.mass, turned + body.mass * p,
+          rotation * body.inertia * rotation.transpose() + body.mass * point_inertia(p) +
+              2.0 * p.dot(turned) * Eigen::Matrix3d::Identity() - p * turned.transpose() -
+              turned * p.transpose()};
 }
 
 double steepest(const Friction& f, double torque) {

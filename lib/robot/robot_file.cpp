@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "lib/core/error.hpp"
 #include "lib/robot/dh/denavit_hartenberg.hpp"
-#include "lib/robot/extra_torque_file.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot.hpp"
 #include "lib/robot/robot_file_parts.hpp"
@@ -18,6 +18,7 @@ namespace faultline {
 namespace {
 
 constexpr double kMostLoad = 0.9;  // highest share of a drive's torque that load friction may take
+constexpr double kFastest = 1e5;   // highest rate of a ripple, 1/rad or 1/m
 
 /// Builds a chain without `axes`: every axis from its [[joint]] table.
 Robot chain_from_joints(const TomlTable& table, const std::vector<TomlTable>& joints) {
@@ -118,21 +119,16 @@ void check_load(const TomlTable& table, const std::string& key, double load) {
 Robot read_friction(const TomlTable& table, const std::vector<TomlTable>& joints, Robot robot) {
   const int n = robot.joints();
   const TomlTable friction = table.table("friction");
-  const auto set = [&](const TomlTable& from, const char* key, double Friction::*member, bool any_sign) {
-    if (!from.has(key)) return;
-    const auto values = from.each(key, n);
-    if (!any_sign) check_signs(from, key, values, !std::string(key).ends_with("width"));
-    for (int i = 0; i < n; ++i) robot.chain.friction[i].*member = values[i];
-  };
-  set(table, "width", &Friction::width, false);
-  set(friction, "viscous", &Friction::viscous, false);
-  set(friction, "coulomb", &Friction::coulomb, false);
-  set(friction, "offset", &Friction::offset, true);
-  set(friction, "width", &Friction::width, false);
-  set(friction, "bend", &Friction::bend, true);
-  set(friction, "bend_width", &Friction::bend_width, false);
-  set(friction, "skew", &Friction::skew, true);
-  set(friction, "load", &Friction::load, false);
+  if (table.has("width")) set_friction(table, "width", &Friction::width, false, robot.chain);
+  for (const auto& [key, member, any_sign] : {std::tuple{"viscous", &Friction::viscous, false},
+                                              {"coulomb", &Friction::coulomb, false},
+                                              {"offset", &Friction::offset, true},
+                                              {"width", &Friction::width, false},
+                                              {"bend", &Friction::bend, true},
+                                              {"bend_width", &Friction::bend_width, false},
+                                              {"skew", &Friction::skew, true},
+                                              {"load", &Friction::load, false}})
+    if (friction.has(key)) set_friction(friction, key, member, any_sign, robot.chain);
   for (const Friction& f : robot.chain.friction) check_load(friction, "load", f.load);
   if (table.has("rotor_inertia")) {
     robot.chain.rotor_inertia = table.each("rotor_inertia", n);
@@ -196,6 +192,37 @@ Robot read_identified(const TomlTable& table, Robot robot) {
 }
 
 }  // namespace
+
+void set_friction(const TomlTable& table, const std::string& key, double Friction::*member, bool any_sign,
+                  Chain& chain) {
+  const auto values = table.each(key, chain.joints());
+  if (!any_sign) check_signs(table, key, values, !key.ends_with("width"));
+  for (int i = 0; i < chain.joints(); ++i) chain.friction[i].*member = values[i];
+}
+
+Chain read_extra_torque(const TomlTable& table, Chain chain) {
+  const int n = chain.joints();
+  for (const TomlTable& ripple : table.tables("ripple")) {
+    const auto joint = ripple.integer("joint", 0);
+    if (joint < 1 || joint > n)
+      ripple.fail("joint", fmt::format("expected a joint from 1 to {}, found {}", n, joint));
+    const double rate = ripple.number("rate");
+    if (!(rate > 0.0 && rate <= kFastest))
+      ripple.fail("rate", fmt::format("expected a number above 0 and up to {}, found {}", kFastest, rate));
+    chain.ripples.push_back(
+        {static_cast<int>(joint) - 1, rate, ripple.number("cosine", 0.0), ripple.number("sine", 0.0)});
+  }
+  for (const TomlTable& shared : table.tables("shared_drive")) {
+    const auto along = shared.numbers("along", n);
+    if (n - std::count(along.begin(), along.end(), 0.0) < 2)
+      shared.fail("along", "expected a drive that turns with two joints or more: two numbers that are not 0");
+    chain.shared_drives.push_back({Eigen::Map<const Eigen::VectorXd>(along.data(), n),
+                                   not_negative(shared, "viscous", 0.0), not_negative(shared, "coulomb", 0.0),
+                                   positive(shared, "width", 0.01),
+                                   not_negative(shared, "rotor_inertia", 0.0)});
+  }
+  return chain;
+}
 
 Robot read_drives(const TomlTable& table, Robot robot) {
   const auto read = [&](const char* key, std::vector<double>& values) {

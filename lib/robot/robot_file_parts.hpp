@@ -17,6 +17,16 @@ Robot read_known(const TomlTable& table, Robot robot);
 Robot read_drives(const TomlTable& table, Robot robot);
 std::string drive_text(const Robot& robot);
 
+/// Sets a term of the friction of each joint from one number or a list. Fails for widths that are not
+/// positive and, without `any_sign`, for other numbers that are negative.
+void set_friction(const TomlTable& table, const std::string& key, double Friction::*member, bool any_sign,
+                  Chain& chain);
+
+/// Returns the chain with the ripples and shared drives of [[ripple]] and [[shared_drive]] added.
+Chain read_extra_torque(const TomlTable& table, Chain chain);
+/// Returns these tables, under `prefix` ("" or "identified."); "" if the chain has neither.
+std::string extra_torque_text(const Chain& chain, const std::string& prefix);
+
 /// Returns [known] and [payload]; "" if both are empty.
 std::string facts_text(const Robot& robot);
 /// Returns [log] and [log.columns].

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "lib/robot/extra_torque_file.hpp"
 #include "lib/robot/robot.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/robot/robot_file_parts.hpp"
@@ -89,6 +88,20 @@ std::string identified_text(const Robot& robot) {
 }
 
 }  // namespace
+
+std::string extra_torque_text(const Chain& chain, const std::string& prefix) {
+  std::string text;
+  for (const Ripple& r : chain.ripples)
+    text += fmt::format("\n[[{}ripple]]\njoint = {}\nrate = {}\ncosine = {}\nsine = {}\n", prefix,
+                        r.joint + 1, toml_number(r.rate), toml_number(r.cosine), toml_number(r.sine));
+  for (const SharedDrive& f : chain.shared_drives)
+    text += fmt::format(
+        "\n[[{}shared_drive]]\nalong = {}\nviscous = {}\ncoulomb = {}\nwidth = {}\n"
+        "rotor_inertia = {}\n",
+        prefix, toml_numbers(f.along), toml_number(f.viscous), toml_number(f.coulomb), toml_number(f.width),
+        toml_number(f.rotor_inertia));
+  return text;
+}
 
 std::string drive_text(const Robot& robot) {
   return by_joint_text("torque_delay_s", robot.torque_delay_s) +

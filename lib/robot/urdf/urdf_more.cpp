@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "lib/core/text.hpp"
-#include "lib/robot/extra_torque_file.hpp"
 #include "lib/robot/robot.hpp"
 #include "lib/robot/robot_file_parts.hpp"
 #include "lib/robot/toml/toml_text.hpp"
@@ -16,7 +15,6 @@
 namespace faultline {
 namespace {
 
-const double kWidth = Friction{}.width;
 constexpr double kSameBody = 1e-13;  ///< relative error up to which a body counts as converted back
 
 template <typename Of>
@@ -45,26 +43,16 @@ Robot read_friction(const TomlTable& table, Robot robot) {
   if (table.has("rotor_inertia")) robot.chain.rotor_inertia = table.each("rotor_inertia", n);
   if (!robot.identified) check_signs(table, "rotor_inertia", robot.chain.rotor_inertia, true);
   const TomlTable friction = table.table("friction");
-  const auto offset = friction.has("offset") ? friction.each("offset", n) : std::vector<double>(n, 0.0);
-  const auto width = friction.has("width") ? friction.each("width", n) : std::vector<double>(n, kWidth);
-  check_signs(friction, "width", width, false);
-  for (int i = 0; i < n; ++i) {
-    robot.chain.friction[i].offset = offset[i];
-    robot.chain.friction[i].width = width[i];
-  }
-  if (friction.has("load")) {
-    const auto load = friction.each("load", n);
-    for (int i = 0; i < n; ++i) robot.chain.friction[i].load = load[i];
-  }
+  const auto set = [&](const char* key, double Friction::*member, bool any_sign) {
+    set_friction(friction, key, member, any_sign, robot.chain);
+  };
+  if (friction.has("offset")) set("offset", &Friction::offset, true);
+  if (friction.has("width")) set("width", &Friction::width, false);
+  if (friction.has("load")) set("load", &Friction::load, true);
   if (!friction.has("bend")) return robot;
-  const auto bend = friction.each("bend", n), skew = friction.each("skew", n),
-             bend_width = friction.each("bend_width", n);
-  check_signs(friction, "bend_width", bend_width, false);
-  for (int i = 0; i < n; ++i) {
-    robot.chain.friction[i].bend = bend[i];
-    robot.chain.friction[i].skew = skew[i];
-    robot.chain.friction[i].bend_width = bend_width[i];
-  }
+  set("bend", &Friction::bend, true);
+  set("skew", &Friction::skew, true);
+  set("bend_width", &Friction::bend_width, false);
   return robot;
 }
 
