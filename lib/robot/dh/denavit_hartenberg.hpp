@@ -24,9 +24,6 @@ struct DhRow {
   double theta = 0.0;  ///< rad
 };
 
-/// Returns the pose of the row's frame in the frame before it, at q = 0.
-Eigen::Isometry3d dh_transform(const DhRow& row, DhConvention convention);
-
 /// Placement of the joints and of the tip, as a table describes them.
 struct DhGeometry {
   /// Origins on the z axes of the table's frames, of frame i-1 for joint i of a standard table and of frame i

@@ -25,40 +25,6 @@ constexpr std::size_t kShownLetters = 60;
 
 using Places = std::map<std::string, int>;  ///< index of each link by name
 
-/// An element of a URDF file with its position: every failure throws Error(input) naming file, line, element
-/// and what to do. Valid as long as the document exists.
-class UrdfElement {
- public:
-  UrdfElement(const tinyxml2::XMLElement& element, const std::string& file)
-      : element_(&element), file_(file) {}
-
-  /// Returns the child of that name, empty if there is none; fails if there are several.
-  std::optional<UrdfElement> child(const std::string& name) const;
-  UrdfElement required(const std::string& name) const;
-  std::vector<UrdfElement> children() const;
-
-  std::string tag() const;
-  int line() const;
-  /// The text between the tags.
-  std::string content() const;
-  bool has(const std::string& attribute) const;
-  /// Returns an attribute; fails if it is absent or empty.
-  std::string text(const std::string& attribute) const;
-  /// A finite number; the second form returns `fallback` if the attribute is absent.
-  double number(const std::string& attribute) const;
-  double number(const std::string& attribute, double fallback) const;
-  /// Three finite numbers, or `fallback` if the attribute is absent.
-  Eigen::Vector3d vector(const std::string& attribute, const Eigen::Vector3d& fallback) const;
-
-  [[noreturn]] void fail(const std::string& message) const;
-
- private:
-  std::vector<double> numbers(const std::string& attribute, std::size_t count) const;
-
-  const tinyxml2::XMLElement* element_;
-  std::string file_;
-};
-
 /// Returns a text of the file as messages quote it.
 std::string quoted(const std::string& text) {
   const bool is_long = text.size() > kShownLetters;
@@ -74,82 +40,97 @@ std::optional<double> finite_number(const std::string& word) {
   return value;
 }
 
-std::optional<UrdfElement> UrdfElement::child(const std::string& name) const {
-  const tinyxml2::XMLElement* first = element_->FirstChildElement(name.c_str());
-  if (!first) return std::nullopt;
-  if (first->NextSiblingElement(name.c_str()))
-    fail(fmt::format("has more than one <{}>; only one is allowed", name));
-  return UrdfElement(*first, file_);
-}
+/// An element of a URDF file with its position: every failure throws Error(input) naming file, line, element
+/// and what to do. Valid as long as the document exists.
+class UrdfElement {
+ public:
+  UrdfElement(const tinyxml2::XMLElement& element, const std::string& file)
+      : element_(&element), file_(file) {}
 
-UrdfElement UrdfElement::required(const std::string& name) const {
-  const auto found = child(name);
-  if (!found) fail(fmt::format("has no <{}>, which is required", name));
-  return *found;
-}
-
-std::vector<UrdfElement> UrdfElement::children() const {
-  std::vector<UrdfElement> found;
-  for (auto* e = element_->FirstChildElement(); e; e = e->NextSiblingElement()) found.emplace_back(*e, file_);
-  return found;
-}
-
-std::string UrdfElement::tag() const { return element_->Name(); }
-int UrdfElement::line() const { return element_->GetLineNum(); }
-
-std::string UrdfElement::content() const {
-  std::string all;
-  for (auto* node = element_->FirstChild(); node; node = node->NextSibling())
-    if (const tinyxml2::XMLText* text = node->ToText()) all += text->Value();
-  return all;
-}
-
-bool UrdfElement::has(const std::string& attribute) const {
-  return element_->Attribute(attribute.c_str()) != nullptr;
-}
-
-std::string UrdfElement::text(const std::string& attribute) const {
-  const char* value = element_->Attribute(attribute.c_str());
-  if (!value || !*value) fail(fmt::format("has no {}, which is required", attribute));
-  return value;
-}
-
-double UrdfElement::number(const std::string& attribute) const { return numbers(attribute, 1)[0]; }
-
-double UrdfElement::number(const std::string& attribute, double fallback) const {
-  return has(attribute) ? number(attribute) : fallback;
-}
-
-Eigen::Vector3d UrdfElement::vector(const std::string& attribute, const Eigen::Vector3d& fallback) const {
-  if (!has(attribute)) return fallback;
-  const auto values = numbers(attribute, 3);
-  return {values[0], values[1], values[2]};
-}
-
-std::vector<double> UrdfElement::numbers(const std::string& attribute, std::size_t count) const {
-  const std::string all = text(attribute);
-  std::vector<double> values;
-  std::istringstream words(all);
-  bool understood = true;
-  for (std::string word; values.size() <= count && words >> word;) {
-    const auto value = finite_number(word);
-    understood = understood && value;
-    values.push_back(value.value_or(0.0));
+  /// Returns the child of that name, empty if there is none; fails if there are several.
+  std::optional<UrdfElement> child(const std::string& name) const {
+    const tinyxml2::XMLElement* first = element_->FirstChildElement(name.c_str());
+    if (!first) return std::nullopt;
+    if (first->NextSiblingElement(name.c_str()))
+      fail(fmt::format("has more than one <{}>; only one is allowed", name));
+    return UrdfElement(*first, file_);
   }
-  if (!understood || values.size() != count)
-    fail(fmt::format("has {} = {}; expected {}{}", attribute, quoted(all),
-                     count == 1 ? "a finite number" : fmt::format("{} finite numbers", count),
-                     all.find("${") == std::string::npos ? "" : ". Expand the file by xacro first"));
-  return values;
-}
 
-void UrdfElement::fail(const std::string& message) const {
-  const char* name = element_->Attribute("name");
-  throw Error(
-      ErrorCode::input,
-      fmt::format("{}, line {}, <{}>{}", file_, line(), printable(tag()), name ? " " + quoted(name) : ""),
-      message);
-}
+  UrdfElement required(const std::string& name) const {
+    const auto found = child(name);
+    if (!found) fail(fmt::format("has no <{}>, which is required", name));
+    return *found;
+  }
+
+  std::vector<UrdfElement> children() const {
+    std::vector<UrdfElement> found;
+    for (auto* e = element_->FirstChildElement(); e; e = e->NextSiblingElement())
+      found.emplace_back(*e, file_);
+    return found;
+  }
+
+  std::string tag() const { return element_->Name(); }
+  int line() const { return element_->GetLineNum(); }
+
+  /// The text between the tags.
+  std::string content() const {
+    std::string all;
+    for (auto* node = element_->FirstChild(); node; node = node->NextSibling())
+      if (const tinyxml2::XMLText* text = node->ToText()) all += text->Value();
+    return all;
+  }
+
+  bool has(const std::string& attribute) const { return element_->Attribute(attribute.c_str()) != nullptr; }
+
+  /// Returns an attribute; fails if it is absent or empty.
+  std::string text(const std::string& attribute) const {
+    const char* value = element_->Attribute(attribute.c_str());
+    if (!value || !*value) fail(fmt::format("has no {}, which is required", attribute));
+    return value;
+  }
+
+  /// A finite number; the second form returns `fallback` if the attribute is absent.
+  double number(const std::string& attribute) const { return numbers(attribute, 1)[0]; }
+  double number(const std::string& attribute, double fallback) const {
+    return has(attribute) ? number(attribute) : fallback;
+  }
+
+  /// Three finite numbers, or `fallback` if the attribute is absent.
+  Eigen::Vector3d vector(const std::string& attribute, const Eigen::Vector3d& fallback) const {
+    if (!has(attribute)) return fallback;
+    const auto values = numbers(attribute, 3);
+    return {values[0], values[1], values[2]};
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    const char* name = element_->Attribute("name");
+    throw Error(
+        ErrorCode::input,
+        fmt::format("{}, line {}, <{}>{}", file_, line(), printable(tag()), name ? " " + quoted(name) : ""),
+        message);
+  }
+
+ private:
+  std::vector<double> numbers(const std::string& attribute, std::size_t count) const {
+    const std::string all = text(attribute);
+    std::vector<double> values;
+    std::istringstream words(all);
+    bool understood = true;
+    for (std::string word; values.size() <= count && words >> word;) {
+      const auto value = finite_number(word);
+      understood = understood && value;
+      values.push_back(value.value_or(0.0));
+    }
+    if (!understood || values.size() != count)
+      fail(fmt::format("has {} = {}; expected {}{}", attribute, quoted(all),
+                       count == 1 ? "a finite number" : fmt::format("{} finite numbers", count),
+                       all.find("${") == std::string::npos ? "" : ". Expand the file by xacro first"));
+    return values;
+  }
+
+  const tinyxml2::XMLElement* element_;
+  std::string file_;
+};
 
 /// Returns the name of an error in words: "mismatched element" for XML_ERROR_MISMATCHED_ELEMENT.
 std::string words_of(tinyxml2::XMLError error) {

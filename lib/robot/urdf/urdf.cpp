@@ -36,6 +36,11 @@ std::string listed(const std::vector<std::string>& names) {
   throw Error(ErrorCode::input, model.file, message);
 }
 
+[[noreturn]] void fail(const UrdfModel& model, const UrdfLink& link, const std::string& message) {
+  throw Error(ErrorCode::input,
+              fmt::format("{}, line {}, link \"{}\"", model.file, link.line, printable(link.name)), message);
+}
+
 [[noreturn]] void fail(const UrdfModel& model, const UrdfJoint& joint, const std::string& message) {
   throw Error(ErrorCode::input,
               fmt::format("{}, line {}, joint \"{}\"", model.file, joint.line, printable(joint.name)),
@@ -199,27 +204,19 @@ UrdfChain serial_chain(const UrdfModel& model) {
   return chain;
 }
 
-[[noreturn]] void fail(const UrdfModel& model, int line, const char* what, const std::string& name,
-                       const std::string& message) {
-  throw Error(ErrorCode::input,
-              fmt::format("{}, line {}, {} \"{}\"", model.file, line, what, printable(name)), message);
-}
-
 /// Fails for negative masses, inertias, damping or friction, which are valid only as identified numbers.
 void refuse_negative(const UrdfModel& model) {
   for (const UrdfLink& link : model.links) {
     if (!link.body) continue;
     if (link.body->mass < 0.0)
-      fail(model, link.line, "link", link.name,
+      fail(model, link,
            fmt::format("has a mass of {} kg; expected one that is not negative", link.body->mass));
     if (link.body->inertia.diagonal().minCoeff() < 0.0)
-      fail(model, link.line, "link", link.name,
-           "has a negative moment of inertia; expected ixx, iyy and izz that are not negative");
+      fail(model, link, "has a negative moment of inertia; expected ixx, iyy and izz that are not negative");
   }
   for (const UrdfJoint& joint : model.joints)
     if (joint.damping < 0.0 || joint.friction < 0.0)
-      fail(model, joint.line, "joint", joint.name,
-           "has a negative damping or friction; expected numbers that are not negative");
+      fail(model, joint, "has a negative damping or friction; expected numbers that are not negative");
 }
 
 bool finite(const Chain& chain) {
