@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lib/robot/dynamics.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -99,11 +98,6 @@ JointVector inverse_dynamics(const Chain& chain, const JointVector& q, const Joi
   return tau;
 }
 
-JointVector bias_torque(const Chain& chain, const JointVector& q, const JointVector& dq) {
-  const JointVector zero = JointVector::Zero(chain.joints());
-  return rigid_body_torque(chain, q, dq, zero, chain.gravity);
-}
-
 JointVector gravity_torque(const Chain& chain, const JointVector& q) {
   const JointVector zero = JointVector::Zero(chain.joints());
   return rigid_body_torque(chain, q, zero, zero, chain.gravity);
@@ -154,54 +148,6 @@ JointMatrix inertia_matrix(const Chain& chain, const JointVector& q) {
   }
   if (!chain.shared_drives.empty()) add_shared_rotors(chain, m);
   return m;
-}
-
-JointVector forward_dynamics(const Chain& chain, const JointVector& q, const JointVector& dq,
-                             const JointVector& tau) {
-  JointVector drag = friction_torque(chain, dq);
-  add_extra_torque(chain, q, dq, drag);
-  JointVector net = tau - drag;
-  for (int i = 0; i < chain.joints(); ++i) net[i] = carried_torque(chain.friction[i], dq[i], net[i]);
-  net -= bias_torque(chain, q, dq);
-  return inertia_matrix(chain, q).ldlt().solve(net);
-}
-
-JointVector momentum(const Chain& chain, const JointVector& q, const JointVector& dq) {
-  return inertia_matrix(chain, q) * dq;
-}
-
-double kinetic_energy(const Chain& chain, const JointVector& q, const JointVector& dq) {
-  return 0.5 * dq.dot(momentum(chain, q, dq));
-}
-
-double potential_energy(const Chain& chain, const JointVector& q) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  double energy = 0.0;
-  for (int i = 0; i < chain.joints(); ++i) {
-    const auto pose = link_pose(chain, i, q[i]);
-    position += rotation * pose.position;
-    rotation = (rotation * pose.rotation).eval();
-    const Eigen::Vector3d moment = rotation * chain.links[i].first_moment + chain.links[i].mass * position;
-    energy -= chain.gravity.dot(moment);
-  }
-  return energy;
-}
-
-Eigen::Vector3d tip_position(const Chain& chain, const JointVector& q) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  for (int i = 0; i < chain.joints(); ++i) {
-    const auto pose = link_pose(chain, i, q[i]);
-    position += rotation * pose.position;
-    rotation = (rotation * pose.rotation).eval();
-  }
-  const int last = chain.joints() - 1;
-  const Eigen::Vector3d& along = chain.geometry[last].direction;
-  const Eigen::Vector3d direction = along.isZero() ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : along;
-  if (chain.geometry[last].kind == AxisKind::revolute)
-    position += rotation * (chain.length[last] * direction);
-  return position;
 }
 
 }  // namespace faultline

@@ -30,27 +30,9 @@ JointVector friction_torque(const Chain& chain, const JointVector& dq);
 JointVector inverse_dynamics(const Chain& chain, const JointVector& q, const JointVector& dq,
                              const JointVector& ddq);
 
-/// h(q, dq) + G(q): Coriolis, centrifugal and gravity torque.
-JointVector bias_torque(const Chain& chain, const JointVector& q, const JointVector& dq);
-
 JointVector gravity_torque(const Chain& chain, const JointVector& q);
 
 /// Inertia matrix M(q), n x n, symmetric.
 JointMatrix inertia_matrix(const Chain& chain, const JointVector& q);
-
-/// ddq = M^-1 (tau - h - G - F).
-JointVector forward_dynamics(const Chain& chain, const JointVector& q, const JointVector& dq,
-                             const JointVector& tau);
-
-/// p = M(q) dq.
-JointVector momentum(const Chain& chain, const JointVector& q, const JointVector& dq);
-
-double kinetic_energy(const Chain& chain, const JointVector& q, const JointVector& dq);
-
-/// Potential energy in the gravity field; zero if every centre of mass is at the base's origin.
-double potential_energy(const Chain& chain, const JointVector& q);
-
-/// Position of the end of the last link in the base frame, m.
-Eigen::Vector3d tip_position(const Chain& chain, const JointVector& q);
 
 }  // namespace faultline

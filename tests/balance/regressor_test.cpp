@@ -7,6 +7,7 @@
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/fast_dynamics.hpp"
 #include "lib/robot/robot.hpp"
+#include "tests/support/chain_mechanics.hpp"
 
 namespace faultline {
 namespace {

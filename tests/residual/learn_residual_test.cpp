@@ -9,8 +9,8 @@
 #include "lib/log/memory_source.hpp"
 #include "lib/residual/physics_step.hpp"
 #include "lib/residual/residuals.hpp"
-#include "lib/robot/dynamics.hpp"
 #include "tests/support/bench_motion.hpp"
+#include "tests/support/chain_mechanics.hpp"
 
 namespace faultline {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "lib/robot/dynamics.hpp"
 #include "tests/robot/assorted_chains.hpp"
+#include "tests/support/chain_mechanics.hpp"
 
 /// Laws that hold for every chain, checked on chains with general bodies, offsets and any axes.
 namespace faultline {

@@ -9,6 +9,7 @@
 #include "lib/robot/fast_dynamics.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/robot/extra_torque_robot.hpp"
+#include "tests/support/chain_mechanics.hpp"
 
 namespace faultline {
 namespace {

@@ -6,6 +6,7 @@
 #include "lib/core/random.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/robot.hpp"
+#include "tests/support/chain_mechanics.hpp"
 
 namespace faultline {
 namespace {

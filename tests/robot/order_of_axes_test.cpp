@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
-#include "lib/robot/dynamics.hpp"
 #include "lib/robot/fast_dynamics.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/robot/assorted_chains.hpp"
+#include "tests/support/chain_mechanics.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace faultline {

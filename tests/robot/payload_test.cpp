@@ -5,6 +5,7 @@
 
 #include "lib/robot/dynamics.hpp"
 #include "tests/robot/assorted_chains.hpp"
+#include "tests/support/chain_mechanics.hpp"
 
 namespace faultline {
 namespace {

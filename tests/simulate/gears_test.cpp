@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "lib/core/error.hpp"
-#include "lib/robot/dynamics.hpp"
 #include "lib/simulate/plant.hpp"
 #include "tests/simulate/one_joint.hpp"
+#include "tests/support/chain_mechanics.hpp"
 
 /// Motions of motor and link whose closed form is known.
 namespace faultline {

@@ -11,6 +11,7 @@
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/robot/assorted_chains.hpp"
+#include "tests/support/chain_mechanics.hpp"
 
 /// Published tables against the products of their transforms, written out as in the textbooks.
 namespace faultline {

@@ -6,6 +6,7 @@
 #include "lib/robot/robot_file.hpp"
 #include "lib/robot/urdf/urdf.hpp"
 #include "tests/robot/assorted_chains.hpp"
+#include "tests/support/chain_mechanics.hpp"
 
 namespace faultline {
 namespace {

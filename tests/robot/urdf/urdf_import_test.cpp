@@ -8,6 +8,7 @@
 #include "lib/robot/robot_file.hpp"
 #include "lib/robot/urdf/urdf.hpp"
 #include "tests/robot/assorted_chains.hpp"
+#include "tests/support/chain_mechanics.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
