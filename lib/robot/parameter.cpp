@@ -2,8 +2,16 @@
 #include "lib/robot/parameter.hpp"
 
 #include <charconv>
+#include <utility>
 
 namespace faultline {
+namespace {
+
+constexpr std::pair<const char*, double Friction::*> kFrictionTerms[] = {
+    {"fv", &Friction::viscous}, {"fc", &Friction::coulomb}, {"fo", &Friction::offset},
+    {"fb", &Friction::bend},    {"fs", &Friction::skew},    {"fl", &Friction::load}};
+
+}  // namespace
 
 std::vector<std::string> parameter_names(int joints) {
   std::vector<std::string> names;
@@ -23,23 +31,17 @@ bool set_parameter(Robot& robot, const std::string& name, double value) {
   const int i = joint - 1;
   Chain& chain = robot.chain;
   LinkInertia& link = chain.links[i];
-  if (what == "fv")
-    chain.friction[i].viscous = value;
-  else if (what == "fc")
-    chain.friction[i].coulomb = value;
-  else if (what == "fo")
-    chain.friction[i].offset = value;
-  else if (what == "fb")
-    chain.friction[i].bend = value;
-  else if (what == "fs")
-    chain.friction[i].skew = value;
-  else if (what == "fl")
-    chain.friction[i].load = value;
-  else if (what == "jr")
+  for (const auto& [prefix, term] : kFrictionTerms) {
+    if (what != prefix) continue;
+    chain.friction[i].*term = value;
+    return true;
+  }
+  if (what == "jr")
     chain.rotor_inertia[i] = value;
-  else if (what != "m" && what != "l")
+  else if (what == "l")
+    chain.length[i] = value;
+  else if (what != "m")
     return false;
-  if (what == "l") chain.length[i] = value;
   if (robot.shapes[i] == LinkShape::rod && (what == "m" || what == "l")) {
     link = uniform_rod(what == "m" ? value : link.mass, chain.length[i], link_direction(robot, i));
   } else if (robot.shapes[i] == LinkShape::point && what == "m") {

@@ -4,15 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <tuple>
 #include <utility>
 
+#include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/open_ending.hpp"
 #include "lib/robot/dh/denavit_hartenberg.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot.hpp"
 #include "lib/robot/robot_file_parts.hpp"
 #include "lib/robot/toml/toml_values.hpp"
+#include "lib/robot/urdf/urdf.hpp"
 
 namespace faultline {
 namespace {
@@ -191,6 +195,12 @@ Robot read_identified(const TomlTable& table, Robot robot) {
   return robot;
 }
 
+/// Whether the text begins with "<", as no TOML does.
+bool is_xml(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && text[first] == '<';
+}
+
 }  // namespace
 
 void set_friction(const TomlTable& table, const std::string& key, double Friction::*member, bool any_sign,
@@ -294,6 +304,27 @@ Robot robot_from_toml(const std::string& text, const std::string& where) {
   Robot robot = robot_from_table(table);
   table.finish();
   return robot;
+}
+
+Robot load_robot_file(const std::string& name, const std::string& folder) {
+  const std::string path = (std::filesystem::path(folder) / name).string();
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    if (is_order_of_axes(name)) return preset_robot(name);
+    if (name.find_first_of("./") == std::string::npos)
+      throw Error(ErrorCode::input, path,
+                  "is not a file; expected a robot file, or the axes alone as letters R and P, base to tip, "
+                  "such as RRP");
+  }
+  if (has_urdf_name(path)) return load_urdf_file(path);
+  const std::string text = read_file(path);
+  if (is_xml(text)) return robot_from_urdf(text, path);
+  refuse_open_number(text, path);
+  return robot_from_toml(text, path);
+}
+
+std::string robot_text_for(const std::string& path, const Robot& robot) {
+  return has_urdf_name(path) ? urdf_text(robot) : robot_file_text(robot);
 }
 
 }  // namespace faultline

@@ -27,10 +27,8 @@ Chain read_extra_torque(const TomlTable& table, Chain chain);
 /// Returns these tables, under `prefix` ("" or "identified."); "" if the chain has neither.
 std::string extra_torque_text(const Chain& chain, const std::string& prefix);
 
-/// Returns [known] and [payload]; "" if both are empty.
+/// Returns [known], [payload], [log], [log.columns], [normal] and [least_size].
 std::string facts_text(const Robot& robot);
-/// Returns [log] and [log.columns].
-std::string log_text(const LogMeaning& log);
 
 /// Reads the [log] section of a robot with `joints` joints. Throws Error(usage) naming the key.
 LogMeaning log_meaning_from_table(const TomlTable& log, int joints);

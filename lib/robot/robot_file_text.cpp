@@ -70,6 +70,26 @@ std::string coupling_text(const Eigen::MatrixXd& coupling) {
   return text + "]\n";
 }
 
+std::string recording_text(const RecordingChoice& choice) {
+  std::string text;
+  if (!choice.topic.empty()) text += fmt::format("topic = {}\n", toml_quoted(choice.topic));
+  if (choice.time) text += fmt::format("time = {}\n", toml_quoted(to_string(*choice.time)));
+  if (choice.joints.empty()) return text;
+  std::string names;
+  for (const std::string& joint : choice.joints) names += (names.empty() ? "" : ", ") + toml_quoted(joint);
+  return text + fmt::format("joints = [{}]\n", names);
+}
+
+std::string log_text(const LogMeaning& log) {
+  std::string text = fmt::format("\n[log]\ntorque = \"{}\"\ntorque_between_samples = \"{}\"\n",
+                                 to_string(log.torque), to_string(log.torque_between_samples));
+  text += recording_text(log.recording);
+  if (log.coupling.size() > 0) text += coupling_text(log.coupling);
+  if (!log.columns.empty()) text += "\n[log.columns]\n";
+  for (const auto& [channel, spec] : log.columns) text += column_text(channel, spec);
+  return text;
+}
+
 std::string identified_text(const Robot& robot) {
   std::string text = "\n[identified]\n";
   if (robot.torque_phi) text += fmt::format("torque_phi = {}\n", toml_number(*robot.torque_phi));
@@ -115,27 +135,7 @@ std::string facts_text(const Robot& robot) {
   for (const auto& [key, fact] : robot.known) text += fact_text(key, fact);
   if (!robot.payloads.empty()) text += "\n[payload]\n";
   for (const auto& [key, fact] : robot.payloads) text += fact_text(toml_quoted(key), fact);
-  return text;
-}
-
-std::string recording_text(const RecordingChoice& choice) {
-  std::string text;
-  if (!choice.topic.empty()) text += fmt::format("topic = {}\n", toml_quoted(choice.topic));
-  if (choice.time) text += fmt::format("time = {}\n", toml_quoted(to_string(*choice.time)));
-  if (choice.joints.empty()) return text;
-  std::string names;
-  for (const std::string& joint : choice.joints) names += (names.empty() ? "" : ", ") + toml_quoted(joint);
-  return text + fmt::format("joints = [{}]\n", names);
-}
-
-std::string log_text(const LogMeaning& log) {
-  std::string text = fmt::format("\n[log]\ntorque = \"{}\"\ntorque_between_samples = \"{}\"\n",
-                                 to_string(log.torque), to_string(log.torque_between_samples));
-  text += recording_text(log.recording);
-  if (log.coupling.size() > 0) text += coupling_text(log.coupling);
-  if (!log.columns.empty()) text += "\n[log.columns]\n";
-  for (const auto& [channel, spec] : log.columns) text += column_text(channel, spec);
-  return text;
+  return text + log_text(robot.log) + normal_range_text(robot.normal) + least_sizes_text(robot.least_sizes);
 }
 
 std::string robot_file_text(const Robot& robot) {
@@ -145,8 +145,7 @@ std::string robot_file_text(const Robot& robot) {
   for (int i = 0; i < robot.joints(); ++i) text += toml_joint(robot, i);
   for (int i = 0; i < robot.joints(); ++i) text += toml_link(robot, i);
   if (!robot.identified) text += extra_torque_text(robot.chain, "");
-  text += facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal) +
-          least_sizes_text(robot.least_sizes);
+  text += facts_text(robot);
   if (robot.identified) text += identified_text(robot);
   return text;
 }

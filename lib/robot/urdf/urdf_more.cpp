@@ -128,8 +128,7 @@ std::string urdf_more_text(const Robot& robot) {
     text += each_joint(robot, "load", [&](int i) { return chain.friction[i].load; });
   text += extra_torque_text(chain, "");
   for (int i = 0; i < robot.joints(); ++i) text += more_link(robot, i);
-  return text + facts_text(robot) + log_text(robot.log) + normal_range_text(robot.normal) +
-         least_sizes_text(robot.least_sizes);
+  return text + facts_text(robot);
 }
 
 Robot read_urdf_more(const std::string& text, const std::string& where, Robot robot) {
