@@ -56,8 +56,7 @@ void write_reproduction(const std::filesystem::path& folder, const Reproduction&
 }  // namespace
 
 nlohmann::ordered_json simulate_into(const SimulateRequest& request, const Progress& progress) {
-  const SimulationFile file =
-      load_simulation_file(request.spec, {request.seed.has_value(), request.seed.value_or(1)});
+  const SimulationFile file = load_simulation_file(request.spec, request.seed);
   claim_files(request, file);
   make_folder(request.folder);
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "lib/core/error.hpp"
+#include "lib/simulate/joint_list.hpp"
 
 namespace faultline {
 namespace {
@@ -13,17 +13,13 @@ namespace {
 Chain nominal_chain(const Robot& robot, const ControllerSpec& spec) {
   Chain chain = spec.nominal ? *spec.nominal : robot.chain;
   if (chain.joints() != robot.joints())
-    throw Error(ErrorCode::usage, "controller.nominal",
-                fmt::format("expected a model with {} joints, found {}", robot.joints(), chain.joints()));
+    bad_value("controller.nominal",
+              fmt::format("expected a model with {} joints, found {}", robot.joints(), chain.joints()));
   if (spec.mass_error.empty()) return chain;
-  if (static_cast<int>(spec.mass_error.size()) != robot.joints())
-    throw Error(ErrorCode::usage, "controller.mass_error",
-                fmt::format("expected {} numbers, found {}", robot.joints(), spec.mass_error.size()));
+  check_count(robot.joints(), spec.mass_error, "controller.mass_error");
   for (int i = 0; i < chain.joints(); ++i) {
     const double factor = 1.0 + spec.mass_error[i];
-    if (!(factor > 0.0))
-      throw Error(ErrorCode::usage, "controller.mass_error",
-                  "expected errors above -1 (a share of the mass)");
+    if (!(factor > 0.0)) bad_value("controller.mass_error", "expected errors above -1 (a share of the mass)");
     chain.links[i].mass *= factor;
     chain.links[i].first_moment *= factor;
     chain.links[i].inertia *= factor;
@@ -36,7 +32,7 @@ Chain nominal_chain(const Robot& robot, const ControllerSpec& spec) {
 Controller::Controller(const Robot& robot, const ControllerSpec& spec, double control_period_s)
     : spec_(spec), nominal_(nominal_chain(robot, spec)) {
   if (spec.bandwidth_rad_s < 0.0 || spec.damping < 0.0)
-    throw Error(ErrorCode::usage, "controller", "expected a bandwidth and a damping that are not negative");
+    bad_value("controller", "expected a bandwidth and a damping that are not negative");
   const double w = spec.bandwidth_rad_s > 0.0 ? spec.bandwidth_rad_s : std::min(15.0, 0.4 / control_period_s);
   kp_ = w * w;
   kd_ = 2.0 * spec.damping * w;

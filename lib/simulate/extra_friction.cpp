@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/core/error.hpp"
 #include "lib/simulate/joint_list.hpp"
 
 namespace faultline {
@@ -20,8 +19,7 @@ void check_beside(int joints, const std::vector<double>& share, const std::vecto
   check_not_negative(joints, beside, key);
   for (std::size_t j = 0; j < share.size(); ++j)
     if (share[j] > 0.0 && (beside.empty() || !(beside[j] > 0.0)))
-      throw Error(ErrorCode::usage, key,
-                  fmt::format("expected {} above 0 for joint {}, which has a share", what, j + 1));
+      bad_value(key, fmt::format("expected {} above 0 for joint {}, which has a share", what, j + 1));
 }
 
 }  // namespace

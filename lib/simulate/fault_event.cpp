@@ -5,49 +5,46 @@
 
 #include <cmath>
 
-#include "lib/core/error.hpp"
 #include "lib/fault/fault_catalogue.hpp"
+#include "lib/simulate/joint_list.hpp"
 
 namespace faultline {
 namespace {
 
-[[noreturn]] void bad_fault(const char* key, const std::string& message) {
-  throw Error(ErrorCode::usage, std::string("fault.") + key, message);
-}
-
 void check_size(const Robot& robot, const SimulatedFault& fault) {
   if (!std::isfinite(fault.size) || !std::isfinite(fault.viscous))
-    bad_fault("size", "expected a finite number");
+    bad_value("fault.size", "expected a finite number");
   if (fault.kind == FaultKind::torque_loss && !(fault.size > 0.0 && fault.size <= 1.0))
-    bad_fault("size",
+    bad_value("fault.size",
               fmt::format("expected the share of torque lost, above 0 and at most 1, found {}", fault.size));
   if (fault.kind == FaultKind::friction_increase &&
       (fault.size < 0.0 || fault.viscous < 0.0 || fault.size + fault.viscous == 0.0))
-    bad_fault("size", "expected added Coulomb (size) or viscous friction, not negative and not both 0");
+    bad_value("fault.size", "expected added Coulomb (size) or viscous friction, not negative and not both 0");
   if (describe(fault.kind).size_count == 1 && fault.size == 0.0)
-    bad_fault("size", fmt::format("a {} needs a size other than 0", to_string(fault.kind)));
+    bad_value("fault.size", fmt::format("a {} needs a size other than 0", to_string(fault.kind)));
   if (fault.kind != FaultKind::payload_change) return;
   const int link = fault.joint > 0 ? fault.joint : robot.joints();
   const double mass = robot.chain.links[static_cast<std::size_t>(link - 1)].mass;
   if (mass + fault.size <= 0.0)
-    bad_fault("size", fmt::format("removes {} kg from link {} of {} kg", -fault.size, link, mass));
+    bad_value("fault.size", fmt::format("removes {} kg from link {} of {} kg", -fault.size, link, mass));
 }
 
 }  // namespace
 
 void check_fault(const Robot& robot, const SimulatedFault& fault) {
   if (fault.kind == FaultKind::none) return;
-  if (fault.kind == FaultKind::unknown) bad_fault("kind", "\"unknown\" cannot be simulated; name a kind");
+  if (fault.kind == FaultKind::unknown)
+    bad_value("fault.kind", "\"unknown\" cannot be simulated; name a kind");
   const bool is_left_out = describe(fault.kind).place == FaultPlace::link && fault.joint == 0;
   if (!is_left_out && (fault.joint < 1 || fault.joint > robot.joints()))
-    bad_fault("joint", fmt::format("expected 1 to {}, found {}", robot.joints(), fault.joint));
+    bad_value("fault.joint", fmt::format("expected 1 to {}, found {}", robot.joints(), fault.joint));
   if (!(fault.onset_s >= 0.0 && std::isfinite(fault.onset_s)))
-    bad_fault("onset_s", fmt::format("expected a time that is not negative, found {}", fault.onset_s));
+    bad_value("fault.onset_s", fmt::format("expected a time that is not negative, found {}", fault.onset_s));
   if (!(fault.end_s > fault.onset_s))
-    bad_fault("end_s",
+    bad_value("fault.end_s",
               fmt::format("expected a time after onset_s = {}, found {}", fault.onset_s, fault.end_s));
   if (describe(fault.kind).passes && !std::isfinite(fault.end_s))
-    bad_fault("end_s",
+    bad_value("fault.end_s",
               fmt::format("a {} is a pulse and needs an end_s (or a duration)", to_string(fault.kind)));
   check_size(robot, fault);
 }

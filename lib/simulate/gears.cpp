@@ -7,16 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/core/error.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "lib/simulate/joint_list.hpp"
 
 namespace faultline {
 namespace {
-
-[[noreturn]] void bad_gears(const char* key, const std::string& message) {
-  throw Error(ErrorCode::usage, std::string("gears.") + key, message);
-}
 
 double value_of(const std::vector<double>& list, int joint) { return list.empty() ? 0.0 : list[joint]; }
 
@@ -29,8 +24,8 @@ void check_links(const Chain& chain, const Gears& gears) {
   const JointMatrix mobility = inertia.inverse();
   for (int j = 0; j < chain.joints(); ++j)
     if (gears.has_spring(j) && !(1.0 / mobility(j, j) > kLeastInertia))
-      bad_gears(
-          "stiffness",
+      bad_value(
+          "gears.stiffness",
           fmt::format("joint {} has no inertia behind its gear; expected stiffness 0, or a link with inertia",
                       j + 1));
 }
@@ -58,19 +53,19 @@ void check_gears(const Robot& robot, const GearSpec& spec) {
     if (!(value_of(spec.stiffness, j) > 0.0)) {
       const bool plays = value_of(spec.play, j) > 0.0;
       if (plays || value_of(spec.damping, j) > 0.0)
-        bad_gears(plays ? "play" : "damping",
+        bad_value(plays ? "gears.play" : "gears.damping",
                   fmt::format("the gear of joint {} is rigid; expected 0 here, or a stiffness", j + 1));
       continue;
     }
     if (!(value_of(chain.rotor_inertia, j) > 0.0))
-      bad_gears(
-          "motor_inertia",
+      bad_value(
+          "gears.motor_inertia",
           fmt::format("the gear of joint {0} is a spring; expected the inertia of the motor behind it, here "
                       "or as jr{0} of the robot",
                       j + 1));
     for (const SharedDrive& drive : chain.shared_drives)
       if (drive.along[j] != 0.0)
-        bad_gears("stiffness",
+        bad_value("gears.stiffness",
                   fmt::format("a shared drive turns joint {}; expected 0 for this joint", j + 1));
   }
   check_links(chain, Gears(chain, spec));

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
-/// Lists of a spec that hold one number for each joint, or none for the default.
+/// Checks of a spec, and its lists that hold one number for each joint, or none for the default.
 namespace faultline {
+
+/// Throws Error(usage) with what was expected and found for `key`.
+[[noreturn]] void bad_value(const std::string& key, const std::string& message);
 
 /// Each throws Error(usage) naming `key` if the list has another length than 0 or `joints`, or if a number is
 /// not positive or is negative, respectively.

@@ -9,21 +9,16 @@
 #include <string>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
+#include "lib/simulate/joint_list.hpp"
 
 namespace faultline {
 namespace {
 
-[[noreturn]] void bad_motion(const char* key, const std::string& message) {
-  throw Error(ErrorCode::usage, std::string("motion.") + key, message);
-}
-
 /// Returns `given`, or the paper's bench ranges if it is empty.
 std::vector<double> range_end(const Robot& robot, const std::vector<double>& given, const char* key,
                               bool high) {
-  if (!given.empty() && static_cast<int>(given.size()) != robot.joints())
-    bad_motion(key, fmt::format("expected {} numbers, found {}", robot.joints(), given.size()));
+  check_count(robot.joints(), given, key);
   if (!given.empty()) return given;
   std::vector<double> ends;
   for (const JointGeometry& joint : robot.chain.geometry)
@@ -33,38 +28,38 @@ std::vector<double> range_end(const Robot& robot, const std::vector<double>& giv
 
 /// Returns the ranges of the points. Throws Error(usage) if `spec` does not fit the robot's joints.
 JointRanges checked_ranges(const Robot& robot, const MotionSpec& spec) {
-  const JointRanges ranges{range_end(robot, spec.low, "low", false),
-                           range_end(robot, spec.high, "high", true)};
+  const JointRanges ranges{range_end(robot, spec.low, "motion.low", false),
+                           range_end(robot, spec.high, "motion.high", true)};
   for (int i = 0; i < robot.joints(); ++i)
     if (!(ranges.low[i] <= ranges.high[i]))
-      bad_motion("low",
-                 fmt::format("{} of joint {} is above high, {}", ranges.low[i], i + 1, ranges.high[i]));
+      bad_value("motion.low",
+                fmt::format("{} of joint {} is above high, {}", ranges.low[i], i + 1, ranges.high[i]));
   if (!(spec.move_min_s > 0.0 && spec.move_min_s <= spec.move_max_s))
-    bad_motion("move_s", fmt::format("expected 0 < shortest <= longest, found {} and {}", spec.move_min_s,
-                                     spec.move_max_s));
+    bad_value("motion.move_s", fmt::format("expected 0 < shortest <= longest, found {} and {}",
+                                           spec.move_min_s, spec.move_max_s));
   if (!(spec.dwell_min_s >= 0.0 && spec.dwell_min_s <= spec.dwell_max_s))
-    bad_motion("dwell_s", fmt::format("expected 0 <= shortest <= longest, found {} and {}", spec.dwell_min_s,
-                                      spec.dwell_max_s));
+    bad_value("motion.dwell_s", fmt::format("expected 0 <= shortest <= longest, found {} and {}",
+                                            spec.dwell_min_s, spec.dwell_max_s));
   if (!(spec.blend > 0.0 && spec.blend <= 0.5))
-    bad_motion("blend", fmt::format("expected 0 to 0.5, found {}", spec.blend));
+    bad_value("motion.blend", fmt::format("expected 0 to 0.5, found {}", spec.blend));
   if (spec.harmonics < 1 || !(spec.fourier_period_s > 0.0))
-    bad_motion("harmonics", "expected at least one harmonic and a positive period");
+    bad_value("motion.harmonics", "expected at least one harmonic and a positive period");
   for (const auto& point : spec.points)
     if (static_cast<int>(point.size()) != robot.joints())
-      bad_motion("points",
-                 fmt::format("expected points of {} numbers, found {}", robot.joints(), point.size()));
+      bad_value("motion.points",
+                fmt::format("expected points of {} numbers, found {}", robot.joints(), point.size()));
   return ranges;
 }
 
 /// Throws Error(usage) if the samples are no motion of this robot.
 void check_replay(const Robot& robot, const SampledMotion& replay) {
   const auto n = static_cast<std::size_t>(robot.joints());
-  if (!(replay.period_s > 0.0)) bad_motion("replay", "expected samples with a positive period");
+  if (!(replay.period_s > 0.0)) bad_value("motion.replay", "expected samples with a positive period");
   if (replay.q.size() != n || replay.dq.size() != n || replay.q[0].size() < 2)
-    bad_motion("replay", fmt::format("expected q and dq of {} joints with at least 2 samples", n));
+    bad_value("motion.replay", fmt::format("expected q and dq of {} joints with at least 2 samples", n));
   for (std::size_t i = 0; i < n; ++i)
     if (replay.q[i].size() != replay.q[0].size() || replay.dq[i].size() != replay.q[0].size())
-      bad_motion("replay", "the columns differ in length");
+      bad_value("motion.replay", "the columns differ in length");
 }
 
 /// Path parameter of a move and its derivatives over x = time / duration of the move.

@@ -1,19 +1,166 @@
 // SPDX-License-Identifier: MIT
 #include "lib/simulate/plant.hpp"
 
+#include <fmt/format.h>
+
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/random.hpp"
+#include "lib/robot/dynamics.hpp"
+#include "lib/robot/payload.hpp"
 #include "lib/robot/runge_kutta.hpp"
-
-// The motion of a plant; with compliant gears, motors and links each have a state of their own.
+#include "lib/simulate/joint_list.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr int kRestIterations = 100;  // each scales the error by weight's slope / spring stiffness
 
+/// Largest product of rate and step that RK4 integrates to a few per cent (it is stable up to 2.78).
+constexpr double kRateTimesStep = 1.0;
+/// The same for an undamped vibration, whose amplitude then decays by only 4e-5 in a period.
+constexpr double kVibrationTimesStep = 0.25;
+
+/// Highest number of sub-steps in max_step_s that stiff friction may require.
+constexpr double kMostSubSteps = 10.0;
+constexpr double kLively = 10.0;  // acceleration for usual_torque(), rad/s^2 or m/s^2
+
+/// Returns the largest diagonal of M^-1 for each joint over some postures.
+JointVector mobility(const FastDynamics& dynamics) {
+  const int n = dynamics.joints();
+  Random random(1);
+  JointVector most = JointVector::Zero(n), q(n), bias;
+  const JointVector rest = JointVector::Zero(n);
+  JointMatrix inertia;
+  for (int k = 0; k < 16; ++k) {
+    for (int i = 0; i < n; ++i) q[i] = k ? random.uniform(-3.0, 3.0) : 0.0;
+    dynamics.inertia_and_bias(q, rest, inertia, bias);
+    const JointMatrix inverse = inertia.inverse();
+    most = most.cwiseMax(inverse.diagonal());
+  }
+  return most;
+}
+
+/// Returns a usual torque of each drive: gravity at q = 0 plus the torque for an acceleration of kLively.
+JointVector usual_torque(const Chain& chain) {
+  const JointVector zero = JointVector::Zero(chain.joints());
+  return kLively * inertia_matrix(chain, zero).diagonal() + gravity_torque(chain, zero).cwiseAbs();
+}
+
 }  // namespace
+
+Plant::Plant(const Robot& robot, const JointStops& stops, const std::vector<SimulatedFault>& faults,
+             double max_step_s, const MachineSpec& machine)
+    : healthy_(with_motors(robot, machine.gears).chain),
+      faults_(faults),
+      max_step_(max_step_s),
+      dynamics_(healthy_),
+      extra_friction_(healthy_, machine.stick_slip, machine.warm_up) {
+  for (const SimulatedFault& fault : faults_) {
+    changes_.push_back(fault.onset_s);
+    if (std::isfinite(fault.end_s)) changes_.push_back(fault.end_s);
+  }
+  std::sort(changes_.begin(), changes_.end());
+  if (!stops.low.empty() || !stops.high.empty()) set_stops(stops);
+  q = dq = JointVector::Zero(robot.joints());
+  const Gears gears(healthy_, machine.gears);
+  if (gears.springs() != 0u) geared_.emplace(Geared{gears, dynamics_, q, dq});
+  enter(-1.0);
+}
+
+void Plant::set_stops(const JointStops& stops) {
+  const int n = dynamics_.joints();
+  if (static_cast<int>(stops.low.size()) != n || static_cast<int>(stops.high.size()) != n)
+    bad_value("limits.stop_low, stop_high", fmt::format("expected {} numbers in each", n));
+  JointMatrix inertia;
+  JointVector bias;
+  const JointVector zero = JointVector::Zero(n);
+  dynamics_.inertia_and_bias(zero, zero, inertia, bias);
+  stop_low_ = Eigen::Map<const Eigen::VectorXd>(stops.low.data(), n);
+  stop_high_ = Eigen::Map<const Eigen::VectorXd>(stops.high.data(), n);
+  stop_stiffness_ = stops.frequency_rad_s * stops.frequency_rad_s * inertia.diagonal();
+  stop_damping_ = 2.0 * stops.damping * stops.frequency_rad_s * inertia.diagonal();
+}
+
+/// Chooses the steps for the current mechanics, near rest and sliding; widens friction that would require
+/// more than kMostSubSteps.
+void Plant::choose_steps(Chain& chain) {
+  const JointVector links = mobility(FastDynamics(geared_ ? geared_->gears.link_side(chain) : chain));
+  JointVector drives = links;
+  for (int i = 0; i < chain.joints(); ++i)
+    if (springs() >> i & 1u) drives[i] = 1.0 / geared_->gears.motor_inertia(i);
+  const JointVector usual = usual_torque(chain);
+  double sliding = 0.0, near_rest = 0.0;
+  for (int i = 0; i < chain.joints(); ++i) {
+    Friction f = extra_friction_.worst(i, chain.friction[i]);
+    f.width = std::max(
+        f.width, drives[i] * (f.coulomb + f.load * usual[i]) * max_step_ / (kRateTimesStep * kMostSubSteps));
+    chain.friction[i].width = f.width;
+    sliding = std::max(sliding, drives[i] * (f.viscous + std::abs(f.skew) + std::abs(f.bend) / f.bend_width));
+    if (stop_low_.size() > 0) sliding = std::max(sliding, std::sqrt(links[i] * stop_stiffness_[i]));
+    near_rest = std::max(near_rest, drives[i] * steepest(f, usual[i]));
+  }
+  for (const SharedDrive& f : chain.shared_drives) {
+    const double mobile = f.along.cwiseAbs2().dot(Eigen::VectorXd(drives));
+    near_rest = std::max(near_rest, mobile * (f.viscous + f.coulomb / f.width));
+  }
+  if (geared_)
+    sliding = std::max({sliding, geared_->gears.damping_rate(links),
+                        geared_->gears.vibration_rate(links) * kRateTimesStep / kVibrationTimesStep});
+  const auto step_for = [&](double rate) {
+    return rate > 0.0 ? std::min(max_step_, kRateTimesStep / rate) : max_step_;
+  };
+  sliding_step_ = step_for(sliding);
+  step_ = std::min(sliding_step_, step_for(near_rest));
+}
+
+/// Sets the mechanics at the time `now`: acting faults, and the velocities after a joint has locked.
+void Plant::enter(double now) {
+  const int n = healthy_.joints();
+  Chain chain = healthy_;
+  const unsigned was_locked = locked_;
+  gain_ = JointVector::Ones(n);
+  external_ = drive_offset_ = JointVector::Zero(n);
+  locked_ = 0;
+  altered_ = false;
+  for (const SimulatedFault& fault : faults_) {
+    if (now < fault.onset_s || now >= fault.end_s) continue;
+    const int i = fault.joint - 1;
+    altered_ = true;
+    const MachineFault change = machine_fault(fault);
+    gain_[i] *= change.torque_gain;
+    external_[i] += change.external_torque;
+    (springs() >> i & 1u ? drive_offset_ : external_)[i] += change.drive_offset;
+    chain.friction[i].coulomb += change.coulomb;
+    chain.friction[i].viscous += change.viscous;
+    if (change.locks) locked_ |= 1u << i;
+    if (change.payload != 0.0) chain = with_payload(chain, i, change.payload);
+  }
+  choose_steps(chain);
+  dynamics_ = FastDynamics(geared_ ? geared_->gears.link_side(chain) : chain);
+  if (geared_) geared_->drives = FastDynamics(chain);
+  if (locked_ & ~was_locked) impact(locked_ & ~was_locked);
+}
+
+/// Stops newly locked joints at once; the impulse of the lock changes the other joints' velocities so that
+/// their momenta are conserved. Of a joint with a spring only the motor stops.
+void Plant::impact(unsigned newly_locked) {
+  const int n = healthy_.joints();
+  if (newly_locked & ~springs()) {
+    JointMatrix inertia;
+    JointVector bias;
+    dynamics_.inertia_and_bias(q, dq, inertia, bias);
+    JointVector momenta = inertia * dq;
+    solve_small(n, inertia.data(), momenta.data(), locked_ & ~springs());
+    dq = momenta;
+  }
+  for (int i = 0; geared_ && i < n; ++i)
+    geared_->dq[i] = !geared_->gears.has_spring(i) ? dq[i] : locked_ >> i & 1u ? 0.0 : geared_->dq[i];
+}
+
+// The motion between two changes; with compliant gears, motors and links each have a state of their own.
 
 /// Returns the longest safe step from a state in which the drives have the velocity `rate` and the
 /// acceleration `ddq`: friction is stiff only if a velocity may pass near zero within the step.

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/core/error.hpp"
 #include "lib/log/log_channels.hpp"
 #include "lib/simulate/clock.hpp"
 #include "lib/simulate/joint_list.hpp"
@@ -16,10 +15,6 @@ namespace faultline {
 namespace {
 
 constexpr double kLeastGap = 0.01;  // least time between two stamps, as a share of the sample period
-
-[[noreturn]] void bad_recording(const char* key, const std::string& message) {
-  throw Error(ErrorCode::usage, std::string("recording.") + key, message);
-}
 
 void differ_velocity(Log& log, double period_s) {
   for (int j = 0; j < log.joints(); ++j)
@@ -80,18 +75,20 @@ Log thinned(const Log& log, double lost, Random& random) {
 
 void check_recording(int joints, double sample_period_s, const RecordingSpec& spec) {
   if (!(spec.jitter_s >= 0.0 && std::isfinite(spec.jitter_s)))
-    bad_recording("jitter_s", fmt::format("expected a time that is not negative, found {}", spec.jitter_s));
+    bad_value("recording.jitter_s",
+              fmt::format("expected a time that is not negative, found {}", spec.jitter_s));
   if (!(spec.stamp_resolution_s >= 0.0 && spec.stamp_resolution_s <= sample_period_s))
-    bad_recording("stamp_resolution_s", fmt::format("expected 0 to the sample period of {} s, found {}",
-                                                    sample_period_s, spec.stamp_resolution_s));
+    bad_value("recording.stamp_resolution_s", fmt::format("expected 0 to the sample period of {} s, found {}",
+                                                          sample_period_s, spec.stamp_resolution_s));
   if (!(spec.lost >= 0.0 && spec.lost < 1.0))
-    bad_recording("lost", fmt::format("expected a share of the rows, 0 to below 1, found {}", spec.lost));
+    bad_value("recording.lost",
+              fmt::format("expected a share of the rows, 0 to below 1, found {}", spec.lost));
   if (!(spec.velocity_filter_s >= 0.0 && std::isfinite(spec.velocity_filter_s)))
-    bad_recording("velocity_filter_s",
-                  fmt::format("expected a time that is not negative, found {}", spec.velocity_filter_s));
+    bad_value("recording.velocity_filter_s",
+              fmt::format("expected a time that is not negative, found {}", spec.velocity_filter_s));
   if (spec.torque_late_rows < 0)
-    bad_recording("torque_late_rows",
-                  fmt::format("expected rows, 0 or more, found {}", spec.torque_late_rows));
+    bad_value("recording.torque_late_rows",
+              fmt::format("expected rows, 0 or more, found {}", spec.torque_late_rows));
   check_not_negative(joints, spec.torque_resolution, "recording.torque_resolution");
 }
 

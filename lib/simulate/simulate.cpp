@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/chain.hpp"
@@ -32,8 +31,8 @@ constexpr double kBeyondAnyRobot = 1e4;  ///< rad/s or m/s, above which the simu
 int control_periods_per_sample(const SimulationSpec& spec) {
   const double ratio = spec.sample_period_s / spec.control_period_s;
   if (std::round(ratio) < 1.0 || std::abs(ratio - std::round(ratio)) > 1e-6)
-    throw Error(
-        ErrorCode::usage, "control_period_s",
+    bad_value(
+        "control_period_s",
         fmt::format("expected a whole number of control periods in the sample period of {} s, found {} s",
                     spec.sample_period_s, spec.control_period_s));
   return static_cast<int>(std::lround(ratio));
@@ -41,12 +40,11 @@ int control_periods_per_sample(const SimulationSpec& spec) {
 
 void check_times(const SimulationSpec& spec) {
   if (!(spec.control_period_s > 0.0) || !(spec.max_step_s > 0.0) || !(spec.sample_period_s > 0.0))
-    throw Error(ErrorCode::usage, "sample_period_s, control_period_s, max_step_s", "expected positive times");
+    bad_value("sample_period_s, control_period_s, max_step_s", "expected positive times");
   if (!(spec.duration_s >= spec.sample_period_s) || !(spec.duration_s / spec.sample_period_s < 1e9))
-    throw Error(
-        ErrorCode::usage, "duration_s",
-        fmt::format("expected at least one sample period of {} s and less than 1e9 of them, found {} s",
-                    spec.sample_period_s, spec.duration_s));
+    bad_value("duration_s",
+              fmt::format("expected at least one sample period of {} s and less than 1e9 of them, found {} s",
+                          spec.sample_period_s, spec.duration_s));
   control_periods_per_sample(spec);
 }
 
@@ -62,8 +60,7 @@ void check_drives(int joints, const DriveSpec& drives) {
   check_not_negative(joints, drives.roughness, "drives.roughness");
   check_positive(joints, drives.roughness_memory_s, "drives.roughness_memory_s");
   for (const double gain : drives.gain)
-    if (!(gain > -1.0))
-      throw Error(ErrorCode::usage, "drives.gain", fmt::format("expected shares above -1, found {}", gain));
+    if (!(gain > -1.0)) bad_value("drives.gain", fmt::format("expected shares above -1, found {}", gain));
 }
 
 /// Makes the checks of check_simulation() that no constructor makes.
@@ -107,10 +104,36 @@ Log empty_log(const Robot& robot, const SimulationSpec& spec, int rows) {
 /// which thereby act through the feedback.
 class Sensors {
  public:
-  Sensors(int joints, const NoiseSpec& noise, const std::vector<SimulatedFault>& faults, Random random);
+  Sensors(int joints, const NoiseSpec& noise, const std::vector<SimulatedFault>& faults, Random random)
+      : q_noise_(or_all(noise.q, joints, 0.0)),
+        dq_noise_(or_all(noise.dq, joints, 0.0)),
+        resolution_(or_all(noise.q_resolution, joints, 0.0)),
+        random_(random) {
+    for (const SimulatedFault& fault : faults)
+      if (describe(fault.kind).acts_on == FaultActsOn::sensor) faults_.push_back(fault);
+    q = dq = JointVector::Zero(joints);
+  }
 
   /// Measures at time t; `q` and `dq` keep the values until the next call (a stuck encoder repeats them).
-  void read(double t, const JointVector& true_q, const JointVector& true_dq);
+  void read(double t, const JointVector& true_q, const JointVector& true_dq) {
+    for (int i = 0; i < q.size(); ++i) {
+      double position = true_q[i], speed = true_dq[i];
+      bool stuck = false;
+      for (const SimulatedFault& fault : faults_) {
+        if (fault.joint != i + 1 || t < fault.onset_s || t >= fault.end_s) continue;
+        const MachineFault change = machine_fault(fault);
+        position += change.reading_offset + change.reading_drift_per_s * (t - fault.onset_s);
+        stuck = stuck || change.reading_sticks;
+      }
+      if (q_noise_[i] > 0.0) position += q_noise_[i] * random_.normal();
+      if (dq_noise_[i] > 0.0) speed += dq_noise_[i] * random_.normal();
+      if (resolution_[i] > 0.0) position = resolution_[i] * std::round(position / resolution_[i]);
+      if (stuck && started_) continue;
+      q[i] = position;
+      dq[i] = speed;
+    }
+    started_ = true;
+  }
 
   JointVector q, dq;
 
@@ -120,36 +143,6 @@ class Sensors {
   Random random_;
   bool started_ = false;
 };
-
-Sensors::Sensors(int joints, const NoiseSpec& noise, const std::vector<SimulatedFault>& faults, Random random)
-    : q_noise_(or_all(noise.q, joints, 0.0)),
-      dq_noise_(or_all(noise.dq, joints, 0.0)),
-      resolution_(or_all(noise.q_resolution, joints, 0.0)),
-      random_(random) {
-  for (const SimulatedFault& fault : faults)
-    if (describe(fault.kind).acts_on == FaultActsOn::sensor) faults_.push_back(fault);
-  q = dq = JointVector::Zero(joints);
-}
-
-void Sensors::read(double t, const JointVector& true_q, const JointVector& true_dq) {
-  for (int i = 0; i < q.size(); ++i) {
-    double position = true_q[i], speed = true_dq[i];
-    bool stuck = false;
-    for (const SimulatedFault& fault : faults_) {
-      if (fault.joint != i + 1 || t < fault.onset_s || t >= fault.end_s) continue;
-      const MachineFault change = machine_fault(fault);
-      position += change.reading_offset + change.reading_drift_per_s * (t - fault.onset_s);
-      stuck = stuck || change.reading_sticks;
-    }
-    if (q_noise_[i] > 0.0) position += q_noise_[i] * random_.normal();
-    if (dq_noise_[i] > 0.0) speed += dq_noise_[i] * random_.normal();
-    if (resolution_[i] > 0.0) position = resolution_[i] * std::round(position / resolution_[i]);
-    if (stuck && started_) continue;
-    q[i] = position;
-    dq[i] = speed;
-  }
-  started_ = true;
-}
 
 /// Inputs and output of the controller at one time.
 struct ControlTick {

@@ -233,15 +233,14 @@ std::uint64_t read_seed(const TomlTable& table, std::uint64_t fallback) {
 }  // namespace
 
 SimulationFile simulation_from_toml(const std::string& text, const std::string& where,
-                                    const std::string& folder, const SimulationFileOptions& options) {
+                                    const std::string& folder, std::optional<std::uint64_t> seed) {
   const TomlTable table = TomlTable::parse(text, where);
   SimulationFile file;
   file.robot = read_robot(table, folder);
   if (!table.is_table("robot"))
     file.robot_path = (std::filesystem::path(folder) / table.text("robot")).string();
   if (table.has("format")) file.format = table.choice("format", {"csv", "flog"});
-  std::uint64_t seed = read_seed(table, 1);
-  if (options.override_seed) seed = options.seed;
+  const std::uint64_t first_seed = seed.value_or(read_seed(table, 1));
   const auto runs = table.tables("run");
   if (runs.empty()) {
     const std::string near = nearest_word("run", table.keys());
@@ -252,7 +251,7 @@ SimulationFile simulation_from_toml(const std::string& text, const std::string& 
   for (std::size_t i = 0; i < runs.size(); ++i) {
     RunSpec run;
     run.name = run_name(runs[i], taken);
-    run.seed = read_seed(runs[i], seed + i);
+    run.seed = read_seed(runs[i], first_seed + i);
     ReadSimulation of_file = read_simulation(table, file.robot, run.seed, {});
     run.simulation = read_simulation(runs[i], file.robot, run.seed, std::move(of_file)).spec;
     try {
@@ -266,10 +265,10 @@ SimulationFile simulation_from_toml(const std::string& text, const std::string& 
   return file;
 }
 
-SimulationFile load_simulation_file(const std::string& path, const SimulationFileOptions& options) {
+SimulationFile load_simulation_file(const std::string& path, std::optional<std::uint64_t> seed) {
   const std::string text = read_file(path);
   refuse_open_number(text, path);
-  return simulation_from_toml(text, path, std::filesystem::path(path).parent_path().string(), options);
+  return simulation_from_toml(text, path, std::filesystem::path(path).parent_path().string(), seed);
 }
 
 std::string labels_header() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,18 +25,14 @@ struct SimulationFile {
   std::vector<RunSpec> runs;
 };
 
-struct SimulationFileOptions {
-  bool override_seed = false;  ///< use `seed` instead of the file's
-  std::uint64_t seed = 1;
-};
-
 /// Reads a spec file; a relative path of a robot file counts from the folder of the spec file. Checks every
-/// run against the robot. Throws Error(usage) naming file, line, key, what was found and what was expected.
-SimulationFile load_simulation_file(const std::string& path, const SimulationFileOptions& options = {});
+/// run against the robot. `seed` takes the place of the file's. Throws Error(usage) naming file, line, key,
+/// what was found and what was expected.
+SimulationFile load_simulation_file(const std::string& path, std::optional<std::uint64_t> seed = {});
 
 /// Reads a spec from text; `where` names it in errors and a robot file's path counts from `folder`.
 SimulationFile simulation_from_toml(const std::string& text, const std::string& where,
-                                    const std::string& folder, const SimulationFileOptions& options = {});
+                                    const std::string& folder, std::optional<std::uint64_t> seed = {});
 
 /// Returns the first line of labels.csv, with its newline.
 std::string labels_header();

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "lib/core/error.hpp"
+#include "lib/simulate/joint_list.hpp"
 
 namespace faultline {
 namespace {
@@ -14,17 +14,15 @@ constexpr double kShortest_s = 1e-3;  // shortest time, so that a long run has n
 
 void check_span(const char* key, double shortest, double longest) {
   if (!(shortest >= kShortest_s && shortest <= longest && std::isfinite(longest)))
-    throw Error(
-        ErrorCode::usage, key,
-        fmt::format("expected {} <= shortest <= longest, found {} and {}", kShortest_s, shortest, longest));
+    bad_value(key, fmt::format("expected {} <= shortest <= longest, found {} and {}", kShortest_s, shortest,
+                               longest));
 }
 
 }  // namespace
 
 void check_work_piece(const WorkPieceSpec& spec) {
   if (!(spec.mass >= 0.0 && std::isfinite(spec.mass)))
-    throw Error(ErrorCode::usage, "work_piece.mass",
-                fmt::format("expected a mass that is not negative, found {}", spec.mass));
+    bad_value("work_piece.mass", fmt::format("expected a mass that is not negative, found {}", spec.mass));
   check_span("work_piece.carried_s", spec.carried_min_s, spec.carried_max_s);
   check_span("work_piece.empty_s", spec.empty_min_s, spec.empty_max_s);
 }

@@ -81,10 +81,7 @@ TEST(SpecFile, HeldFollowsTheRunsOwnSamplePeriod) {
 }
 
 TEST(SpecFile, SeedCanBeOverridden) {
-  SimulationFileOptions options;
-  options.override_seed = true;
-  options.seed = 500;
-  const SimulationFile file = simulation_from_toml(kSpec, "spec.toml", ".", options);
+  const SimulationFile file = simulation_from_toml(kSpec, "spec.toml", ".", 500);
   EXPECT_EQ(file.runs[0].seed, 500u);
   EXPECT_EQ(file.runs[1].seed, 77u);  // the run's own seed stays
 }
