@@ -71,7 +71,7 @@ void measure(double sigma) {
   GeneratorRecipe recipe;
   recipe.sigma = sigma;
   recipe.fit.kind = ResidualKind::physics;
-  const ResidualGenerator generator = train_generator(experiment, recipe).generator;
+  const ResidualGenerator generator = train_generator(experiment, recipe);
   const auto runs = [&](const RunSet& set, SeedUse use) {
     return with_noise(monitored_runs(experiment, set, use), experiment, sigma, use);
   };

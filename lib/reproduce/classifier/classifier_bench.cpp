@@ -119,7 +119,7 @@ ClassifierBench::ClassifierBench(ControllerVariant controller, std::uint64_t see
     : experiment_(experiment_on(bench_robot(), controller, seed)) {
   GeneratorRecipe recipe;
   recipe.fit.max_iterations = generator_iterations;
-  paper_ = train_generator(experiment_, recipe).generator;
+  paper_ = train_generator(experiment_, recipe);
   for (int noise = 0; noise < 3; ++noise)
     tests_[noise] = fault_patterns(experiment_,
                                    {.count = test_trajectories,

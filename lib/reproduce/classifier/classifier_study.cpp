@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limits>
-#include <mutex>
 
-#include "lib/core/parallel.hpp"
 #include "lib/reproduce/classifier/classifier_results.hpp"
 #include "lib/reproduce/classifier/transition_posterior.hpp"
 
@@ -67,14 +65,10 @@ StudyResult classifier_study(const ReproduceOptions& options, const Progress& pr
   const std::vector<ClassifierRecipe> recipes = classifier_recipes(effort.recipes);
   ClassifierResults results(recipes, options.seeds);
   const int items = kControllers * options.seeds;
-  std::mutex telling;
-  int done = 0;
-  parallel_for(items, options.threads, [&](int item) {
+  parallel_steps("classifiers of single samples", items, options.threads, progress, [&](int item) {
     const int controller = item % kControllers, seed = item / kControllers;
     results.at(controller, seed) = find(kControllerVariants[controller], recipes, effort,
                                         options.seed + static_cast<std::uint64_t>(seed));
-    const std::lock_guard lock(telling);
-    if (progress) progress("classifiers of single samples", static_cast<double>(++done) / items);
   });
   return results.tables_and_goals();
 }

@@ -22,8 +22,6 @@ constexpr double kRidge = 1e-6;  // share of each input's power
 constexpr std::size_t kNeighbours = 20;
 constexpr double kShareOfAll = 0.01;  // of the overall covariance, so that the local one has full rank
 
-using Vector = JointVector;
-
 constexpr int kSteps = 10;  // of Runge-Kutta, over a sample
 
 constexpr double kStep = 1e-4;      // of the finite differences, in half ranges
@@ -150,24 +148,24 @@ SampleModel::SampleModel(const Robot& robot, ControllerVariant controller, Torqu
       controller_(robot, controller_spec(controller), kControlPeriod) {}
 
 /// Where pd wants to be: its torque is linear in the set-point of the joint.
-Vector SampleModel::set_point(const JointState& now, const Vector& tau) const {
-  Reference there{now.q, Vector::Zero(now.q.size()), Vector::Zero(now.q.size())};
-  Vector here_torque(now.q.size()), beyond_torque(now.q.size());
+JointVector SampleModel::set_point(const JointState& now, const JointVector& tau) const {
+  Reference there{now.q, JointVector::Zero(now.q.size()), JointVector::Zero(now.q.size())};
+  JointVector here_torque(now.q.size()), beyond_torque(now.q.size());
   controller_.torque(there, now.q, now.dq, here_torque);
   there.q.array() += 1.0;
   controller_.torque(there, now.q, now.dq, beyond_torque);
   return now.q + ((tau - here_torque).array() / (beyond_torque - here_torque).array()).matrix();
 }
 
-JointState SampleModel::next(const JointState& now, const Vector& tau, const Vector& next_tau,
+JointState SampleModel::next(const JointState& now, const JointVector& tau, const JointVector& next_tau,
                              int output) const {
   const bool follows = between_ == TorqueBetween::controlled && reading_ != ControllerVariant::held;
   const bool pd = reading_ == ControllerVariant::pd;
-  Reference reference{now.q, Vector::Zero(now.q.size()), Vector::Zero(now.q.size())};
+  Reference reference{now.q, JointVector::Zero(now.q.size()), JointVector::Zero(now.q.size())};
   if (follows && pd) reference.q = set_point(now, tau);
   if (follows && !pd) dynamics_.acceleration(now.q, now.dq, tau, reference.ddq);
-  const auto acceleration = [&](double time, const Vector& q, const Vector& dq, Vector& ddq) {
-    Vector applied = tau;
+  const auto acceleration = [&](double time, const JointVector& q, const JointVector& dq, JointVector& ddq) {
+    JointVector applied = tau;
     if (between_ == TorqueBetween::linear) applied += time / kSamplePeriod * (next_tau - tau);
     if (follows && !pd) {  // on its way: no error to correct
       reference.q = q;
@@ -179,13 +177,13 @@ JointState SampleModel::next(const JointState& now, const Vector& tau, const Vec
   };
   const double h = kSamplePeriod / kSteps;
   JointState x = now;
-  Vector a1;
+  JointVector a1;
   for (int i = 0; i < kSteps; ++i) {
     const double t = i * h;
     acceleration(t, x.q, x.dq, a1);
     runge_kutta_step(
         h, a1,
-        [&](double after, const Vector& q, const Vector& dq, Vector& ddq) {
+        [&](double after, const JointVector& q, const JointVector& dq, JointVector& ddq) {
           acceleration(t + after, q, dq, ddq);
         },
         x.q, x.dq);

@@ -56,10 +56,6 @@ GeneratorErrors persistence_errors(const GeneratorBench& bench) {
   return errors;
 }
 
-GeneratorErrors errors_of(const GeneratorRecipe& recipe, const GeneratorBench& bench) {
-  return errors_of(train_generator(bench.experiment, recipe).generator, bench);
-}
-
 Robot robot_as_known(TorqueTiming timing) {
   Robot robot = preset_robot("RRP");
   robot.name = "bench as known";

@@ -42,8 +42,6 @@ struct GeneratorErrors {
 GeneratorErrors errors_of(const ResidualGenerator& generator, const GeneratorBench& bench);
 /// Of predicting that nothing changes.
 GeneratorErrors persistence_errors(const GeneratorBench& bench);
-/// Of the generator trained as the recipe says in this bench's experiment.
-GeneratorErrors errors_of(const GeneratorRecipe& recipe, const GeneratorBench& bench);
 
 /// Healthy runs of moves that a robot is identified from.
 struct LearningLogs {

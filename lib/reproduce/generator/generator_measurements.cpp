@@ -6,11 +6,9 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <mutex>
 #include <utility>
 
 #include "lib/core/error.hpp"
-#include "lib/core/parallel.hpp"
 
 namespace faultline {
 namespace {
@@ -18,6 +16,9 @@ namespace {
 using Errors = std::optional<GeneratorErrors>;
 
 constexpr int kPatternsInATrajectory = 25;
+constexpr double kNone = StudyFigures::kNone;
+
+StudyFigures fast_only(double clean) { return {.clean = {kNone, clean, kNone}}; }
 
 std::string patterns_of(int trajectories) { return fmt::format("{}", trajectories * kPatternsInATrajectory); }
 
@@ -36,7 +37,9 @@ GeneratorRecipe mlp_recipe(int trajectories, int iterations) {
 GeneratorCandidate mlp(std::string name, const GeneratorRecipe& recipe, const StudyFigures& study = {},
                        bool first_seed_only = false) {
   return {std::move(name), patterns_of(recipe.trajectories), study,
-          [recipe](const IdentifiedBench& on) -> Errors { return errors_of(recipe, on.bench); },
+          [recipe](const IdentifiedBench& on) -> Errors {
+            return errors_of(train_generator(on.bench.experiment, recipe), on.bench);
+          },
           first_seed_only};
 }
 
@@ -54,7 +57,7 @@ Errors hybrid_errors(const Chain& chain, double torque_phi, const GeneratorScale
   recipe.next_torque = !is_held(on);
   recipe.torque_phi = torque_phi;
   recipe.assumed = chain;
-  return errors_of(recipe, on.bench);
+  return errors_of(train_generator(on.bench.experiment, recipe), on.bench);
 }
 
 /// Masses 5 % too large and no friction.
@@ -137,13 +140,13 @@ std::vector<GeneratorCandidate> paper_candidates(const GeneratorScale& scale) {
   runs.runs_of_moves = true;
   const GeneratorRecipe many = mlp_recipe(scale.many_trajectories, scale.many_iterations);
   std::vector<GeneratorCandidate> all{
-      persistence({2.4e-3, 2.1e-3, 8.0e-3, 2.6e-3, 2.25e-2}),
-      mlp(kBackPropagation, gradient, {4.0e-4, 4.1e-4, 1.2e-3, 6.0e-4, 2.0e-2}),
-      mlp(kLevenbergMarquardt, standard, {3.9e-5, 1.5e-4, 9.9e-4, 2.4e-4, 2.1e-2}),
+      persistence({{2.4e-3, 2.1e-3, 8.0e-3}, 2.6e-3, 2.25e-2}),
+      mlp(kBackPropagation, gradient, {{4.0e-4, 4.1e-4, 1.2e-3}, 6.0e-4, 2.0e-2}),
+      mlp(kLevenbergMarquardt, standard, {{3.9e-5, 1.5e-4, 9.9e-4}, 2.4e-4, 2.1e-2}),
       mlp("MLP 12-49-6 (also tau(t+dt)), Levenberg-Marquardt", next_torque,
-          {.held = 1.2e-5, .fast = 8.0e-6, .held_noise_01 = 2.2e-4, .held_noise_1 = 2.1e-2}),
+          {{1.2e-5, 8.0e-6, kNone}, 2.2e-4, 2.1e-2}),
       mlp("MLP 9-49-6, Levenberg-Marquardt, 8 times the patterns", many,
-          {3.9e-6, 3.1e-5, 8.0e-4, 2.1e-4, 2.1e-2}, true),
+          {{3.9e-6, 3.1e-5, 8.0e-4}, 2.1e-4, 2.1e-2}, true),
       mlp("MLP 9-49-6, Levenberg-Marquardt, trained on runs of moves", runs)};
   GeneratorRecipe noisy = standard, noisier = mlp_recipe(scale.trajectories, scale.noisy_iterations);
   noisy.sigma = 0.01;
@@ -151,7 +154,7 @@ std::vector<GeneratorCandidate> paper_candidates(const GeneratorScale& scale) {
   noisier.fit.weight_decay = 1e-4;  // less of it and more iterations fit the noise
   all.push_back(mlp("MLP 9-49-6, Levenberg-Marquardt, trained with noise 0.01", noisy));
   all.push_back(mlp(kTrainedWithNoise, noisier));
-  all.push_back(true_physics({1.7e-15, 1.9e-6, 5.1e-3, 2.1e-4, 2.1e-2}));
+  all.push_back(true_physics({{1.7e-15, 1.9e-6, 5.1e-3}, 2.1e-4, 2.1e-2}));
   all.push_back(identified_physics());
   all.push_back(hybrid(scale, {}));
   return all;
@@ -161,17 +164,13 @@ std::vector<GeneratorCandidate> friction_candidates(const GeneratorScale& scale)
   const std::string patterns = patterns_of(scale.trajectories);
   return {
       persistence({}),
-      {"physics, masses 5 % off, no friction",
-       "-",
-       {.fast = 2.1e-2},
+      {"physics, masses 5 % off, no friction", "-", fast_only(2.1e-2),
        [](const IdentifiedBench& on) { return physics_errors(wrong_chain(), middle(on), on); }},
-      mlp(kLevenbergMarquardt, mlp_recipe(scale.trajectories, scale.iterations), {.fast = 2e-4}),
-      {kWrongAndMlp,
-       patterns,
-       {.fast = 8.1e-5},
+      mlp(kLevenbergMarquardt, mlp_recipe(scale.trajectories, scale.iterations), fast_only(2e-4)),
+      {kWrongAndMlp, patterns, fast_only(8.1e-5),
        [scale](const IdentifiedBench& on) { return hybrid_errors(wrong_chain(), middle(on), scale, on); }},
       identified_physics(),
-      hybrid(scale, {.fast = 6e-7}),
+      hybrid(scale, fast_only(6e-7)),
       {"physics, identified from a log at 1 kHz",
        "-",
        {},
@@ -228,25 +227,20 @@ GeneratorMeasurements measure_generators(const GeneratorComparison& comparison,
   for (const ControllerVariant controller : kControllerVariants)
     ranges.push_back(half_ranges(comparison.robot, controller));
 
-  std::mutex reporting;
-  int done = 0;
-  const auto report = [&] {
-    const std::lock_guard lock(reporting);
-    if (progress) progress("residual generators", static_cast<double>(++done) / (benches * (count + 1)));
-  };
+  const std::string what = "residual generators";
+  const double share = 1.0 / (count + 1);  // of the time, for the identification
+  const Progress identifying = part_of(progress, 0.0, share), measuring = part_of(progress, share, 1.0);
   std::vector<IdentifiedBench> identified(benches);
-  parallel_for(benches, options.threads, [&](int i) {
+  parallel_steps(what, benches, options.threads, identifying, [&](int i) {
     const int controller = i / options.seeds;
     identified[i] = identified_bench({comparison.robot, kControllerVariants[controller], ranges[controller],
                                       options.seed + i % options.seeds},
                                      comparison);
-    report();
   });
-  parallel_for(benches * count, options.threads, [&](int i) {
+  parallel_steps(what, benches * count, options.threads, measuring, [&](int i) {
     const GeneratorCandidate& candidate = out.candidates[i / benches];
     if (!candidate.first_seed_only || i % options.seeds == 0)
       out.errors[i] = candidate.errors(identified[i % benches]);
-    report();
   });
   return out;
 }

@@ -38,11 +38,11 @@ struct IdentifiedBench {
 
 /// What an independent study measured of the same generator; NaN where it did not.
 struct StudyFigures {
-  double held = std::numeric_limits<double>::quiet_NaN();
-  double fast = std::numeric_limits<double>::quiet_NaN();
-  double pd = std::numeric_limits<double>::quiet_NaN();
-  double held_noise_01 = std::numeric_limits<double>::quiet_NaN();
-  double held_noise_1 = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  std::array<double, kControllers> clean{kNone, kNone, kNone};  ///< of kControllerVariants
+  double held_noise_01 = kNone;
+  double held_noise_1 = kNone;
 };
 
 /// A residual generator of the comparison. `errors` is empty where it does not apply to a controller.

@@ -63,6 +63,12 @@ network takes part of that and leaves {}. Under pd one timing for all joints doe
 between samples; identified from 73 ms, masses are distorted by the fit, and the network corrects that for the
 motion it was trained on but not in runs, where set-points jump between samples.)";
 
+constexpr const char* kByOutput =
+    R"(The paper's network and patterns, both trainers, each output in squares of its half range. Clean,
+nearly all error is in the velocities, most of it in joint 2, which has the smallest inertia of the two
+coupled joints and is thrown about by joint 1. With noise every output stands near twice sigma^2, the noise of
+both ends; only an error of the network beyond that still shows.)";
+
 std::string scientific(double value) { return figure_text(value, FigureStyle::scientific); }
 
 double mean_mse(const GeneratorMeasurements& measured, const char* name, ControllerVariant controller,
@@ -89,13 +95,6 @@ std::string generator_mse_text(const GeneratorMeasurements& measured, const Gene
          fmt::format(kNoise, gain, scientific(physics), noisy(kTrainedWithNoise), noisy(kLevenbergMarquardt));
 }
 
-std::string generator_by_output_text() {
-  return R"(The paper's network and patterns, both trainers, each output in squares of its half range. Clean,
-nearly all error is in the velocities, most of it in joint 2, which has the smallest inertia of the two
-coupled joints and is thrown about by joint 1. With noise every output stands near twice sigma^2, the noise of
-both ends; only an error of the network beyond that still shows.)";
-}
-
 std::string generator_friction_text(const GeneratorMeasurements& measured, const GeneratorScale& scale) {
   const auto clean = [&](const char* name) {
     return scientific(mean_mse(measured, name, ControllerVariant::fast, GeneratorTest::clean));
@@ -110,23 +109,11 @@ std::optional<Measured> printed(double figure) {
   return Measured{{figure}};
 }
 
-double study_clean(const StudyFigures& study, ControllerVariant controller) {
-  switch (controller) {
-    case ControllerVariant::held:
-      return study.held;
-    case ControllerVariant::fast:
-      return study.fast;
-    case ControllerVariant::pd:
-      return study.pd;
-  }
-  return std::nan("");
-}
-
 ResultRow row_of(const GeneratorMeasurements& measured, int candidate, int controller) {
   const GeneratorCandidate& who = measured.candidates[candidate];
   ResultRow row{{who.name, to_string(kControllerVariants[controller]), who.patterns}, {}};
   for (const GeneratorTest test : kTests) row.figures.push_back(measured.mse(candidate, controller, test));
-  row.figures.push_back(printed(study_clean(who.study, kControllerVariants[controller])));
+  row.figures.push_back(printed(who.study.clean[controller]));
   return row;
 }
 
@@ -172,7 +159,7 @@ ResultTable generator_by_output_table(const GeneratorMeasurements& measured) {
   ResultTable table;
   table.id = "generator_by_output";
   table.title = "The paper's residual generator, output by output";
-  table.text = generator_by_output_text();
+  table.text = kByOutput;
   table.label_columns = {"generator", "controller", "test"};
   for (const char* name : {"q1", "q2", "q3", "dq1", "dq2", "dq3"}) table.figure_columns.push_back({name});
   for (const char* name : {kBackPropagation, kLevenbergMarquardt})

@@ -50,7 +50,7 @@ std::vector<Log> healthy_runs(const Experiment& experiment, int trajectories, do
   return logs;
 }
 
-TrainedGenerator train_generator(const Experiment& experiment, const GeneratorRecipe& recipe) {
+ResidualGenerator train_generator(const Experiment& experiment, const GeneratorRecipe& recipe) {
   ResidualGenerator untrained = untrained_generator(experiment.robot, recipe);
   const double phi = untrained.shape.torque_phi;
   const auto draw = recipe.runs_of_moves ? healthy_runs : healthy_trajectories;
@@ -62,19 +62,14 @@ TrainedGenerator train_generator(const Experiment& experiment, const GeneratorRe
   logs.resize(training_count);
   ResidualOptions fit = recipe.fit;
   fit.seed = seed_of(experiment.seed, SeedUse::generator_training, ~0ull);
-  FittedGenerator fitted = fit_residual_generator(std::move(untrained), transitions_of(logs, phi), {}, fit);
-  fitted.generator.healthy = healthy_residuals(fitted.generator, check);
-  return {std::move(fitted.generator), std::move(fitted.training)};
+  ResidualGenerator generator =
+      fit_residual_generator(std::move(untrained), transitions_of(logs, phi), {}, fit).generator;
+  generator.healthy = healthy_residuals(generator, check);
+  return generator;
 }
 
 Eigen::VectorXd normalised_mse_by_output(const Eigen::MatrixXd& error, const HalfRanges& ranges) {
   return (ranges.state().cwiseInverse().asDiagonal() * error).array().square().rowwise().mean();
-}
-
-Eigen::VectorXd normalised_mse_by_output(const ResidualGenerator& generator, const Transitions& test,
-                                         const HalfRanges& ranges) {
-  return normalised_mse_by_output(measured_change(generator, test) - predicted_change(generator, test),
-                                  ranges);
 }
 
 }  // namespace faultline

@@ -34,16 +34,11 @@ std::vector<Log> healthy_runs(const Experiment& experiment, int trajectories, do
 /// The generator of a recipe before its network is trained; that of kind physics is complete.
 ResidualGenerator untrained_generator(const Robot& robot, const GeneratorRecipe& recipe);
 
-struct TrainedGenerator {
-  ResidualGenerator generator;  ///< healthy residuals measured on a fifth as many trajectories again
-  TrainingSummary training;
-};
-TrainedGenerator train_generator(const Experiment& experiment, const GeneratorRecipe& recipe);
+/// Its healthy residuals are measured on a fifth as many trajectories again.
+ResidualGenerator train_generator(const Experiment& experiment, const GeneratorRecipe& recipe);
 
 /// Mean squared error of each output (q1..qn, dq1..dqn), in squares of half ranges (the paper's measure is
-/// the mean of them); of an error given as 2 joints x transitions, or of a generator.
+/// the mean of them), of an error given as 2 joints x transitions.
 Eigen::VectorXd normalised_mse_by_output(const Eigen::MatrixXd& error, const HalfRanges& ranges);
-Eigen::VectorXd normalised_mse_by_output(const ResidualGenerator& generator, const Transitions& test,
-                                         const HalfRanges& ranges);
 
 }  // namespace faultline

@@ -101,8 +101,7 @@ std::vector<Figure> fault_figures(const ReproduceOptions& options) {
   const Experiment experiment = experiment_on(bench_robot(), kController, options.seed);
   GeneratorRecipe recipe;
   recipe.fit.trainer = ResidualTrainer::back_propagation;
-  const SampleDetector detector =
-      train_paper_detector(train_generator(experiment, recipe).generator, experiment);
+  const SampleDetector detector = train_paper_detector(train_generator(experiment, recipe), experiment);
   std::vector<Figure> figures;
   const ShownRun first = shown_run(detector, experiment, 4.0, seed_of(options.seed, SeedUse::figures, 0));
   add_figures(figures, first, first.outputs.mlp, "MLP", 4.0);

@@ -171,13 +171,13 @@ FilteredRobot with_missed_share(const OneStepModel& robot, const std::vector<Log
 }
 
 std::vector<Alarms> free_joint_alarms(const FilteredRobot& robot, const Log& log,
-                                      const FreeJointOptions& options) {
+                                      const std::vector<double>& thresholds, double name_s) {
   const FilteredLog samples(robot, log);
   const MotionLaw usual(robot.steps.body, robot.steps.numbers());
   const std::vector<MotionLaw> free = free_joints(robot.steps);
   std::vector<Running> running(free.size());
-  std::vector<Threshold> thresholds;
-  for (const double nats : options.thresholds) thresholds.emplace_back(nats, options.name_s);
+  std::vector<Threshold> watched;
+  for (const double nats : thresholds) watched.emplace_back(nats, name_s);
   Estimate healthy = samples.first();
   for (int k = 0; k + 1 < samples.samples(); ++k) {
     const Estimate before = std::exchange(healthy, samples.predicted(healthy, k, usual));
@@ -192,11 +192,11 @@ std::vector<Alarms> free_joint_alarms(const FilteredRobot& robot, const Log& log
     }
     const auto largest = std::max_element(running.begin(), running.end(),
                                           [](const Running& a, const Running& b) { return a.sum < b.sum; });
-    for (Threshold& threshold : thresholds)
+    for (Threshold& threshold : watched)
       threshold.take(samples.time_s(k + 1), largest->sum, static_cast<int>(largest - running.begin()));
   }
   std::vector<Alarms> alarms;
-  for (Threshold& threshold : thresholds) alarms.push_back(std::move(threshold.alarms));
+  for (Threshold& threshold : watched) alarms.push_back(std::move(threshold.alarms));
   return alarms;
 }
 

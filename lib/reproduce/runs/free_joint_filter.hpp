@@ -20,16 +20,12 @@ struct FilteredRobot {
 /// `robot` with the missed share under which these healthy logs are likeliest.
 FilteredRobot with_missed_share(const OneStepModel& robot, const std::vector<Log>& healthy);
 
-struct FreeJointOptions {
-  std::vector<double> thresholds = {18.0};  ///< nats, ascending
-  double name_s = 0.0;  ///< the fault is named by the largest sum this long after the alarm
-};
-
 /// Extended Kalman filters side by side: the healthy robot and a free-swinging joint 1, 2, ... . The log
 /// likelihood ratio of each fault against healthy is summed while it is positive (Page's CUSUM); at zero its
 /// filter starts anew from the healthy state. Returns the alarms of each threshold; after an alarm the sum
-/// has to return to zero before the next.
+/// has to return to zero before the next. `thresholds` ascend, in nats; the largest sum `name_s` after the
+/// alarm names the fault.
 std::vector<Alarms> free_joint_alarms(const FilteredRobot& robot, const Log& log,
-                                      const FreeJointOptions& options);
+                                      const std::vector<double>& thresholds, double name_s);
 
 }  // namespace faultline

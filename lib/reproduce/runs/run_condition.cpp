@@ -139,7 +139,7 @@ std::vector<AlarmScore> scores(const FilteredRobot& robot, std::span<const Exper
                                const std::vector<double>& thresholds) {
   std::vector<AlarmScore> scores;
   for (const ExperimentRun& run : runs)
-    add(scores, run, free_joint_alarms(robot, run.log, {thresholds, kName_s}));
+    add(scores, run, free_joint_alarms(robot, run.log, thresholds, kName_s));
   return scores;
 }
 
@@ -200,7 +200,7 @@ RunBench run_bench(ControllerVariant controller, const RunPlan& plan, std::uint6
   GeneratorRecipe recipe;
   recipe.trajectories = plan.generator_trajectories;
   recipe.fit.max_iterations = plan.generator_iterations;
-  bench.paper_generator = train_generator(bench.experiment, recipe).generator;
+  bench.paper_generator = train_generator(bench.experiment, recipe);
   return bench;
 }
 
@@ -223,11 +223,7 @@ ResidualGenerator best_generator(const RunBench& bench, const Chain& identified,
     recipe.next_torque = true;
     recipe.fit.max_iterations = std::min(kNoisyIterations, bench.plan.generator_iterations);
   }
-  return train_generator(bench.experiment, recipe).generator;
-}
-
-void append(std::vector<DetectorResult>& all, std::vector<DetectorResult> more) {
-  for (DetectorResult& result : more) all.push_back(std::move(result));
+  return train_generator(bench.experiment, recipe);
 }
 
 ConditionResult run_condition(const RunBench& bench, double sigma) {
@@ -255,7 +251,8 @@ ConditionResult run_condition(const RunBench& bench, double sigma) {
     result.detectors.push_back(detect_with_filters(
         detector_name::kFilters,
         with_missed_share(std::get<OneStepModel>(learned.model.explain.robot), healthy.logs), tuning, test));
-    append(result.detectors, detect_with_product(learned, test));
+    for (DetectorResult& detector : detect_with_product(learned, test))
+      result.detectors.push_back(std::move(detector));
   }
   if (!contains(plan.filtered_sigmas, sigma)) return result;
   const FilteredRobot known = with_missed_share(known_steps(e.robot, healthy), healthy.logs);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <mutex>
-
-#include "lib/core/parallel.hpp"
 #include "lib/reproduce/runs/run_tables.hpp"
 
 namespace faultline {
@@ -14,15 +11,11 @@ std::vector<ControllerResults> run_all(const ReproduceOptions& options, const Pr
   for (const ControllerVariant controller : kControllerVariants)
     all.push_back({controller, std::vector<std::vector<ConditionResult>>(options.seeds)});
   const int items = static_cast<int>(all.size()) * options.seeds;
-  std::mutex reporting;
-  int done = 0;
-  parallel_for(items, options.threads, [&](int item) {
+  parallel_steps("watching runs", items, options.threads, progress, [&](int item) {
     ControllerResults& results = all[item / options.seeds];  // held, the longest, first
     const int i = item % options.seeds;
     results.by_seed[i] = run_conditions(results.controller, run_plan(results.controller, options.quick),
                                         options.seed + static_cast<std::uint64_t>(i));
-    const std::lock_guard lock(reporting);
-    if (progress) progress("watching runs", static_cast<double>(++done) / items);
   });
   return all;
 }

@@ -39,20 +39,18 @@ the more a filter gains.)";
   return text;
 }
 
-std::string trade_off_text() {
-  return R"(The paper finds g by trial and error. A larger g removes false alarms, adds at least 73 ms of
+constexpr const char* kTradeOff =
+    R"(The paper finds g by trial and error. A larger g removes false alarms, adds at least 73 ms of
 delay a step, and beyond some samples loses faults, since the torque of a freed joint passes zero and the run
 of equal outputs breaks. Measured on the test runs; nothing was chosen here.)";
-}
 
-std::string comparison_text() {
-  return R"(Both detectors saw the same runs; the settings of each were chosen on other runs for the fewest
+constexpr const char* kComparison =
+    R"(Both detectors saw the same runs; the settings of each were chosen on other runs for the fewest
 false alarms. Differences are *both and cases* minus the other, over the runs of all seeds, with the 95 %
 interval of a paired bootstrap over runs; a run without alarm counts with a delay of 6 s. An interval that
 excludes 0 is a difference that the runs prove. *g in a row* decides at each sample (the naive reading of
 figure 2), *summed log odds* at the level of the episode: a network that has summed up enough names its fault,
 and if the other does not agree, similar cases decide between fault and false alarm.)";
-}
 
 std::vector<FigureColumn> score_columns() {
   return {{"false alarms", "per h", FigureStyle::decimal},
@@ -165,7 +163,7 @@ ResultTable trade_off_table(const ControllerResults& results, int sigma) {
       fmt::format("trade_off_{}_{:g}", name, first.sigma),
       fmt::format("The criterion's g against false alarms and delay, {}, noise {:g} of half range", name,
                   first.sigma),
-      trade_off_text(),
+      kTradeOff,
       {"detector", "g"},
       score_columns(),
       {}};
@@ -187,7 +185,7 @@ ResultTable comparison_table(const ControllerResults& results) {
   const std::string name = to_string(results.controller);
   ResultTable table{"dual_" + name,
                     "Does the case-based decision on two networks pay? " + name,
-                    comparison_text(),
+                    kComparison,
                     {"noise", "both and cases", "against", "decision"},
                     {},
                     {}};

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "lib/reproduce/runs/sample_detector.hpp"
 
+#include "lib/reproduce/classifier/fault_trajectories.hpp"
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr int kDetectorSamples = 10;  // a trajectory of table 1
 // Trajectories with a fault in joint 1, 2, 3 and without; every fifth of each validates, which leaves 20, 20,
 // 35 and 15 to train on.
-constexpr int kTrajectories[] = {25, 25, 43, 18};
+constexpr int kTrajectories[kFaultClasses] = {25, 25, 43, 18};
 constexpr int kAllPatterns = 1'000'000;
 constexpr int kIterations = 200;
 
@@ -23,11 +23,12 @@ LabelledResiduals residuals_of_log(const ResidualGenerator& generator, const Log
 
 SampleDetector train_paper_detector(const ResidualGenerator& generator, const Experiment& experiment) {
   std::vector<LabelledResiduals> runs;
-  for (int output = 0; output < 4; ++output) {
-    const FaultLabel fault = output < 3 ? FaultLabel{FaultKind::free_swinging, output + 1} : FaultLabel{};
+  for (int output = 0; output < kFaultClasses; ++output) {
+    const FaultLabel fault = fault_of_class(output);
     for (int i = 0; i < kTrajectories[output]; ++i) {
       const std::uint64_t own = seed_of(experiment.seed, SeedUse::classifier_training, 1000 * output + i);
-      const Log log = trajectory(experiment.robot, experiment.controller, kDetectorSamples, own, {fault});
+      const Log log =
+          trajectory(experiment.robot, experiment.controller, kPatternsPerTrajectory, own, {fault});
       runs.push_back(residuals_of_log(generator, log, fault, 0.0));
     }
   }

@@ -18,7 +18,7 @@ TEST(FreeJointFilter, finds_and_names_each_free_joint_and_keeps_quiet_before) {
   const auto runs = with_noise(monitored_runs(experiment, set, SeedUse::run_tuning), experiment, kSigma,
                                SeedUse::run_tuning);
   for (const ExperimentRun& run : runs) {
-    const auto alarms = free_joint_alarms(robot, run.log, {{14.0, 1e9}, 0.6});
+    const auto alarms = free_joint_alarms(robot, run.log, {14.0, 1e9}, 0.6);
     ASSERT_FALSE(alarms[0].empty()) << run.fault.joint;
     EXPECT_GE(alarms[0][0].time_s, run.onset_s);
     EXPECT_LT(alarms[0][0].time_s, run.onset_s + 1.0);
