@@ -7,6 +7,7 @@
 #include "apps/manual/command_description.hpp"
 #include "apps/manual/help_text.hpp"
 #include "apps/manual/unknown_word.hpp"
+#include "apps/options.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 
@@ -54,19 +55,18 @@ void add_help(CLI::App& app, Program& program) {
 
 void add_completion(CLI::App& app, Program& program) {
   using Script = std::string (*)(const CommandDescription&);
-  static const std::vector<std::pair<std::string, Script>> shells{
-      {"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}};
-  auto shell = std::make_shared<std::string>();
+  static constexpr Script kScripts[] = {bash_completion, zsh_completion, fish_completion};
+  auto script = std::make_shared<Script>();
   CLI::App* command = app.add_subcommand("completion", "Print a script that completes commands in a shell");
-  command->add_option("SHELL", *shell, "The shell")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  add_choice_option(
+      *command, "SHELL", {"bash", "zsh", "fish"}, [script](std::size_t place) { *script = kScripts[place]; },
+      "The shell")
+      ->required();
   command->footer(
       "Example: faultline completion bash > ~/.local/share/bash-completion/completions/faultline");
-  command->callback([shell, &app, &program] {
-    program.run = [shell, &app] {
-      for (const auto& [name, script] : shells)
-        if (name == *shell) print(script(describe_command(app)));
+  command->callback([script, &app, &program] {
+    program.run = [script, &app] {
+      print((*script)(describe_command(app)));
       return kNothingFound;
     };
   });

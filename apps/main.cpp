@@ -12,6 +12,7 @@
 #include "apps/commands.hpp"
 #include "apps/manual/help_text.hpp"
 #include "apps/manual/unknown_word.hpp"
+#include "apps/options.hpp"
 #include "apps/terminal.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/removed_on_signal.hpp"
@@ -30,17 +31,12 @@ void keep_freed_memory() {
 #endif
 }
 
-ColorChoice color_choice_from(const std::string& when) {
-  if (when == "always") return ColorChoice::always;
-  return when == "never" ? ColorChoice::never : ColorChoice::automatic;
-}
-
 void add_global_options(CLI::App& app, Program& program) {
   app.set_version_flag("--version", std::string("faultline ") + program_version());
-  app.add_option_function<std::string>(
-         "--color", [&program](const std::string& when) { program.color = color_choice_from(when); },
-         "Colours: auto (default), always or never; NO_COLOR is respected")
-      ->check(CLI::IsMember({"auto", "always", "never"}))
+  add_choice_option(
+      app, "--color", {"auto", "always", "never"},
+      [&program](std::size_t place) { program.color = static_cast<ColorChoice>(place); },
+      "Colours: auto (default), always or never; NO_COLOR is respected")
       ->type_name("WHEN");
   app.fallthrough();  // --color may also stand after the subcommand
   app.require_subcommand(1);
@@ -50,20 +46,10 @@ void add_global_options(CLI::App& app, Program& program) {
 }
 
 void add_commands(CLI::App& app, Program& program) {
-  add_inspect(app, program);
-  add_convert(app, program);
-  add_cases(app, program);
-  add_model(app, program);
-  add_simulate(app, program);
-  add_identify(app, program);
-  add_learn(app, program);
-  add_diagnose(app, program);
-  add_compare(app, program);
-  add_batch(app, program);
-  add_golden(app, program);
-  add_reproduce(app, program);
-  add_help(app, program);
-  add_completion(app, program);
+  for (const auto add :
+       {add_inspect, add_convert, add_cases, add_model, add_simulate, add_identify, add_learn, add_diagnose,
+        add_compare, add_batch, add_golden, add_reproduce, add_help, add_completion})
+    add(app, program);
 }
 
 /// Returns the innermost command that was named, with the words before it.

@@ -10,7 +10,7 @@
 
 namespace faultline {
 
-enum class ColorChoice { automatic, always, never };
+enum class ColorChoice { automatic, always, never };  // in the order of --color
 
 /// True when output to `stream` is coloured: `automatic` means on a terminal unless NO_COLOR is set and not
 /// empty, or TERM is "dumb".

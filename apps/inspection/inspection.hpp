@@ -24,7 +24,6 @@ namespace faultline {
 /// One channel of an overview: least and largest value of each stretch of rows; NaN if it has none.
 struct OverviewChannel {
   std::string name;
-  std::string unit;  ///< of an extra channel
   bool canonical = true;
   std::vector<float> low, high;
 };

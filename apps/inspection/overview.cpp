@@ -17,11 +17,11 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 void OverviewPass::begin(const Log& segment) {
   for_each_joint_channel(segment, [&](const std::vector<double>&, Channel channel) {
-    overview_.channels.push_back({to_string(channel), "", true, {}, {}});
+    overview_.channels.push_back({to_string(channel), true, {}, {}});
   });
   for (const ExtraChannel& extra : segment.extra) {
     if (overview_.channels.size() < kMostChannels)
-      overview_.channels.push_back({extra.name, extra.unit, false, {}, {}});
+      overview_.channels.push_back({extra.name, false, {}, {}});
     else
       ++overview_.channels_left_out;
   }

@@ -32,7 +32,7 @@ Answer run(const std::vector<std::string>& paths, const FolderModels& models, co
   request.options.identify = identify;
   request.options.threads = threads;
   request.options.wait = wait;
-  if (!shard.empty()) take_shard(shard, request.options);
+  take_shard(shard, request.options);
   return watched(progress, [&](ProgressRelay& watch) {
     request.options.progress = [&watch](const BatchProgress& at) {
       watch.report(fmt::format("{} of {} logs", at.done, at.logs), static_cast<double>(at.done) / at.logs);

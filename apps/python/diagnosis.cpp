@@ -41,17 +41,6 @@ struct MadeDiagnosis {
   }
 };
 
-/// Returns the value of `all` with this name. Throws Error(usage).
-template <typename All>
-auto named(const char* option, const std::string& name, const All& all) {
-  std::string names;
-  for (const auto one : all) {
-    if (name == to_string(one)) return one;
-    names += (names.empty() ? "" : " or ") + std::string(to_string(one));
-  }
-  throw Error(ErrorCode::usage, option, "\"" + name + "\" is not known; expected " + names);
-}
-
 std::shared_ptr<MadeDiagnosis> make_diagnosis(const std::shared_ptr<LogHandle>& log,
                                               const std::shared_ptr<LoadedModel>& model,
                                               const std::string& classify, const std::string& criterion,

@@ -31,12 +31,7 @@ std::string recorded_json(const Recorded& recorded, const std::vector<std::strin
 std::string record(const std::vector<std::string>& logs, const std::string& model, const std::string& cases,
                    const std::string& folder, bool identify, int trace_points, int threads,
                    const py::object& progress) {
-  RecordArguments arguments;
-  arguments.model = model;
-  arguments.cases = cases;
-  arguments.folder = folder;
-  arguments.logs = logs;
-  arguments.options = {identify, trace_points, threads};
+  RecordArguments arguments{{{model, cases}, folder, "", "", 0}, logs, {identify, trace_points, threads}};
   return watched(progress, [&](ProgressRelay& watch) {
     const std::vector<std::string> skipped = skip_label_tables(arguments.logs);
     return recorded_json(record_folder(arguments, watch.progress()), skipped);
@@ -48,12 +43,7 @@ using Checked = std::pair<std::string, std::string>;
 
 Checked check(const std::string& folder, const std::string& model, const std::string& cases,
               const std::string& junit, int threads, const py::object& progress) {
-  GoldenArguments arguments;
-  arguments.model = model;
-  arguments.cases = cases;
-  arguments.folder = folder;
-  arguments.junit = junit;
-  arguments.threads = threads;
+  const GoldenArguments arguments{{model, cases}, folder, "", junit, threads};
   return watched(progress, [&](ProgressRelay& watch) {
     const CheckedFolder checked = check_folder(arguments, watch.progress());
     return Checked(render_check_json(checked.check, checked.run), render_check_text(checked.check));
@@ -64,14 +54,7 @@ Checked check(const std::string& folder, const std::string& model, const std::st
 std::pair<std::vector<std::string>, std::vector<std::string>> accept(
     const std::string& folder, const std::vector<std::string>& names, bool all, bool same_verdict,
     const std::string& model, const std::string& cases, int threads, const py::object& progress) {
-  AcceptArguments arguments;
-  arguments.model = model;
-  arguments.cases = cases;
-  arguments.folder = folder;
-  arguments.threads = threads;
-  arguments.names = names;
-  arguments.all = all;
-  arguments.same_verdict = same_verdict;
+  const AcceptArguments arguments{{{model, cases}, folder, "", "", threads}, names, all, same_verdict};
   if (!arguments.accepts() || (!names.empty() + all + same_verdict) > 1)
     throw Error(ErrorCode::usage, "accept", "needs exactly one of names, all=True and same_verdict=True");
   return watched(progress, [&](ProgressRelay& watch) {

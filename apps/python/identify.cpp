@@ -26,13 +26,8 @@ namespace py = pybind11;
 
 using Logs = std::vector<std::shared_ptr<LogHandle>>;
 
-IdentifyMethod method_named(const std::string& name) {
-  for (const IdentifyMethod method :
-       {IdentifyMethod::automatic, IdentifyMethod::weak_form, IdentifyMethod::output_error})
-    if (name == to_string(method)) return method;
-  throw Error(ErrorCode::usage, "method",
-              "\"" + name + "\" is not known; expected automatic, weak_form or output_error");
-}
+constexpr std::array kMethods{IdentifyMethod::automatic, IdentifyMethod::weak_form,
+                              IdentifyMethod::output_error};
 
 std::shared_ptr<Identification> identify_logs(const Logs& handles, const std::string& robot_name,
                                               const std::string& output, const std::string& method,
@@ -40,7 +35,7 @@ std::shared_ptr<Identification> identify_logs(const Logs& handles, const std::st
                                               const py::object& progress) {
   if (handles.empty()) throw Error(ErrorCode::usage, "identify", "was given no log");
   IdentifyOptions options;
-  options.method = method_named(method);
+  options.method = named("method", method, kMethods);
   options.keep_all = keep_all;
   options.threads = threads;
   return watched(progress, [&](ProgressRelay& watch) {

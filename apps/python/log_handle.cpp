@@ -66,7 +66,13 @@ std::string sha256_of(const std::vector<ColumnView>& columns) {
 class ColumnReader : public RawReader {
  public:
   /// The values must outlive the reader and not change. Throws Error(input) for columns of unequal length.
-  ColumnReader(std::vector<ColumnView> columns, std::string name);
+  ColumnReader(std::vector<ColumnView> columns, std::string name)
+      : columns_(std::move(columns)), rows_(rows_of(columns_, name)) {
+    wanted_.assign(columns_.size(), true);
+    for (const ColumnView& column : columns_) names_.push_back(column.column);
+    identity_.path = std::move(name);
+    identity_.format = "arrays";
+  }
 
   const std::vector<RawColumn>& columns() const override { return names_; }
   bool next(RawBlock& block, int max_rows) override {
@@ -120,14 +126,6 @@ class ColumnReader : public RawReader {
   std::int64_t rows_ = 0;
 };
 
-ColumnReader::ColumnReader(std::vector<ColumnView> columns, std::string name)
-    : columns_(std::move(columns)), rows_(rows_of(columns_, name)) {
-  wanted_.assign(columns_.size(), true);
-  for (const ColumnView& column : columns_) names_.push_back(column.column);
-  identity_.path = std::move(name);
-  identity_.format = "arrays";
-}
-
 }  // namespace
 
 LogHandle::LogHandle(std::string name, const std::vector<std::string>& names,
@@ -160,13 +158,10 @@ std::unique_ptr<RawReader> LogHandle::open_columns(const RecordingChoice& choice
   return std::make_unique<ColumnReader>(columns_, name_);
 }
 
-std::unique_ptr<LogSource> LogHandle::open(const Robot& robot) const {
-  return robot_log_of(open_columns(robot.log.recording), robot, parts_.run);
-}
-
 std::unique_ptr<LogSource> LogHandle::open(const Robot& robot, ProgressRelay& watch,
                                            bool reports_progress) const {
-  return interruptible(open(robot), watch, reports_progress);
+  return interruptible(robot_log_of(open_columns(robot.log.recording), robot, parts_.run), watch,
+                       reports_progress);
 }
 
 std::optional<Robot> robot_named(const std::string& robot) {

@@ -41,10 +41,8 @@ class LogHandle {
 
   /// Opens the columns without mapping. Throws as open_parts() does.
   std::unique_ptr<RawReader> open_columns(const RecordingChoice& choice = {}) const;
-  /// Opens a log of this robot, see open_robot_log().
-  std::unique_ptr<LogSource> open(const Robot& robot) const;
-  /// Does the same, but ends with the work and does not read ahead; reports the progress if
-  /// `reports_progress` is set.
+  /// Opens a log of this robot as open_robot_log() does; it ends with the work and does not read ahead.
+  /// Reports the progress if `reports_progress` is set.
   std::unique_ptr<LogSource> open(const Robot& robot, ProgressRelay& watch, bool reports_progress) const;
 
  private:

@@ -44,15 +44,8 @@ PYBIND11_MODULE(_faultline, module) {
   module.doc() = "Compiled part of faultline; use the package faultline.";
   module.attr("version") = faultline::program_version();
   faultline::bind_errors();
-  faultline::bind_log(module);
-  faultline::bind_model(module);
-  faultline::bind_networks(module);
-  faultline::bind_diagnosis(module);
-  faultline::bind_learn(module);
-  faultline::bind_identify(module);
-  faultline::bind_inspect(module);
-  faultline::bind_batch(module);
-  faultline::bind_golden(module);
-  faultline::bind_cases(module);
-  faultline::bind_simulate(module);
+  using namespace faultline;
+  for (const auto add_part : {bind_log, bind_model, bind_networks, bind_diagnosis, bind_learn, bind_identify,
+                              bind_inspect, bind_batch, bind_golden, bind_cases, bind_simulate})
+    add_part(module);
 }

@@ -91,8 +91,8 @@ GuessedUnit guess_time_unit(const std::vector<double>& time, const std::vector<J
 
 struct GuessedUnits {
   GuessedUnit position, velocity;
-  double position_factor = 1.0, velocity_factor = 1.0;  ///< to SI
-  bool flipped = false;                                 ///< one of them has the opposite sign
+  double position_factor = 1.0;  ///< to SI
+  bool flipped = false;          ///< one of them has the opposite sign
 };
 
 /// Unit of the angles of the log's other joints, according to their values.

@@ -57,10 +57,6 @@ bool is_plausible(const UnitPair& pair, const JointNumbers& joint, OtherAngles o
   return joint.largest < most * kMostRadians && fastest < most * kFastestRadians;
 }
 
-}  // namespace
-
-namespace {
-
 /// Correlation of velocity and torque without its mean: friction makes it positive if both have one sign.
 double power_of(const std::vector<double>& dq, const std::vector<double>& tau, double mean) {
   double vv = 0.0, tt = 0.0, vt = 0.0;
@@ -146,7 +142,7 @@ GuessedUnits guess_joint_units(const JointNumbers& joint, double time_factor,
   units.flipped = joint.ratio < 0.0;
   const auto take = [&](const std::string& position, const std::string& velocity, const std::string& why) {
     units.position = {position, why}, units.velocity = {velocity, why};
-    units.position_factor = factor_of(position), units.velocity_factor = factor_of(velocity);
+    units.position_factor = factor_of(position);
   };
   const auto is_as_known = [](const std::string& known, const char* unit) {
     return known.empty() || near(factor_of(known), factor_of(unit));

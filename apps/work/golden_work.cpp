@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <set>
 
 #include "apps/work/file_use.hpp"
@@ -89,16 +90,18 @@ std::vector<std::string> found_otherwise(const AcceptArguments& arguments, const
   return names;
 }
 
-}  // namespace
-
+/// Opens a log with the model's robot file.
 std::unique_ptr<LogSource> open_golden_log(const std::string& path, const Model& model) {
   return open_robot_log(path, model.robot);
 }
 
+/// Returns the model of --model, else the folder's.
 ModelAndCases golden_subject(const GoldenArguments& arguments, const GoldenSet& set) {
   return arguments.model.empty() ? load_golden_model(arguments.folder, set)
                                  : load_model_and_cases(arguments.model, arguments.case_base());
 }
+
+}  // namespace
 
 GoldenRun golden_run(const GoldenArguments& arguments, const GoldenSet& set, const ModelAndCases& subject,
                      const Progress& progress) {

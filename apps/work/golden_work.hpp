@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,15 +19,9 @@ struct GoldenArguments : ModelPaths {
   int threads = 0;
 };
 
-/// Opens a log with the model's robot file.
-std::unique_ptr<LogSource> open_golden_log(const std::string& path, const Model& model);
-
-/// Returns the model of --model, else the folder's.
-ModelAndCases golden_subject(const GoldenArguments& arguments, const GoldenSet& set);
 /// Replays the folder's logs.
 GoldenRun golden_run(const GoldenArguments& arguments, const GoldenSet& set, const ModelAndCases& subject,
                      const Progress& progress);
-class FileUse;
 /// Adds the inputs of an action: the folder's files as `set` names them, and --model with its case base.
 void reads_golden(FileUse& files, const GoldenArguments& arguments, const GoldenSet& set);
 
