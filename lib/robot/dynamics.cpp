@@ -98,11 +98,6 @@ JointVector inverse_dynamics(const Chain& chain, const JointVector& q, const Joi
   return tau;
 }
 
-JointVector gravity_torque(const Chain& chain, const JointVector& q) {
-  const JointVector zero = JointVector::Zero(chain.joints());
-  return rigid_body_torque(chain, q, zero, zero, chain.gravity);
-}
-
 JointMatrix inertia_matrix(const Chain& chain, const JointVector& q) {
   const int n = chain.joints();
   std::array<LinkPose, kMaxJoints> pose;

@@ -30,8 +30,6 @@ JointVector friction_torque(const Chain& chain, const JointVector& dq);
 JointVector inverse_dynamics(const Chain& chain, const JointVector& q, const JointVector& dq,
                              const JointVector& ddq);
 
-JointVector gravity_torque(const Chain& chain, const JointVector& q);
-
 /// Inertia matrix M(q), n x n, symmetric.
 JointMatrix inertia_matrix(const Chain& chain, const JointVector& q);
 

@@ -46,7 +46,8 @@ JointVector mobility(const FastDynamics& dynamics) {
 /// Returns a usual torque of each drive: gravity at q = 0 plus the torque for an acceleration of kLively.
 JointVector usual_torque(const Chain& chain) {
   const JointVector zero = JointVector::Zero(chain.joints());
-  return kLively * inertia_matrix(chain, zero).diagonal() + gravity_torque(chain, zero).cwiseAbs();
+  const JointVector weight = rigid_body_torque(chain, zero, zero, zero, chain.gravity);
+  return kLively * inertia_matrix(chain, zero).diagonal() + weight.cwiseAbs();
 }
 
 }  // namespace

@@ -218,10 +218,9 @@ SimulatedRun simulate(const Robot& robot, const SimulationSpec& spec, std::uint6
   const Controller controller(with_motors(robot, spec.machine.gears), spec.controller, spec.control_period_s);
   Sensors sensors(joints, spec.noise, faults, Random::stream(seed, noise_stream));
   Drives drives(joints, spec.drives, Random::stream(seed, drive_stream));
-  std::vector<SimulatedFault> changes = faults;
-  for (const SimulatedFault& piece :
-       carried(spec.work_piece, joints, spec.duration_s, Random::stream(seed, work_piece_stream)))
-    changes.push_back(piece);
+  std::vector<SimulatedFault> changes =
+      carried(spec.work_piece, joints, spec.duration_s, Random::stream(seed, work_piece_stream));
+  changes.insert(changes.begin(), faults.begin(), faults.end());
   Plant plant(robot, spec.stops, changes, spec.max_step_s, spec.machine);
 
   Reference reference;

@@ -15,6 +15,11 @@ inline JointVector bias_torque(const Chain& chain, const JointVector& q, const J
   return rigid_body_torque(chain, q, dq, zero, chain.gravity);
 }
 
+inline JointVector gravity_torque(const Chain& chain, const JointVector& q) {
+  const JointVector zero = JointVector::Zero(chain.joints());
+  return rigid_body_torque(chain, q, zero, zero, chain.gravity);
+}
+
 /// ddq = M^-1 (tau - h - G - F).
 inline JointVector forward_dynamics(const Chain& chain, const JointVector& q, const JointVector& dq,
                                     const JointVector& tau) {
