@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "apps/inspection/inspection.hpp"
 
 namespace faultline {
@@ -20,7 +18,7 @@ struct Facts {
   const Inspection& inspection;
   std::vector<std::string> torques, motions, references;
   double period_s, span_s;
-  bool all_torques = false;
+  bool all_torques = false, moves = false;
 
   explicit Facts(const Inspection& from)
       : inspection(from),
@@ -29,6 +27,7 @@ struct Facts {
     for (const ChannelSummary& channel : from.quality.channels) {
       if (!channel.canonical || channel.values == 0) continue;
       const Quantity quantity = canonical_channel(channel.name)->quantity;
+      if (quantity == Quantity::q && channel.max - channel.min > kLeastMotion) moves = true;
       if (quantity == Quantity::tau) torques.push_back(channel.name);
       if (quantity == Quantity::q || quantity == Quantity::dq) motions.push_back(channel.name);
       if (quantity == Quantity::q_ref || quantity == Quantity::dq_ref) references.push_back(channel.name);
@@ -36,13 +35,6 @@ struct Facts {
     all_torques = static_cast<int>(torques.size()) == from.joints && from.joints > 0;
   }
   bool none() const { return !inspection.joint_log || inspection.rows_used < kFewestRows; }
-  bool moves() const {
-    const auto& channels = inspection.quality.channels;
-    return std::any_of(channels.begin(), channels.end(), [](const ChannelSummary& channel) {
-      const auto known = channel.canonical ? canonical_channel(channel.name) : std::nullopt;
-      return known && known->quantity == Quantity::q && channel.max - channel.min > kLeastMotion;
-    });
-  }
 };
 
 std::vector<std::string> both(std::vector<std::string> a, const std::vector<std::string>& b) {
@@ -90,8 +82,7 @@ PossibleAnalysis identify(const Facts& facts) {
   PossibleAnalysis analysis{"identify", "identify the robot's parameters", {}, {}, {}, {}};
   judge_torques(facts, analysis);
   judge_length(facts, analysis);
-  if (analysis.fit != AnalysisFit::impossible && !facts.inspection.quality.velocity.empty() &&
-      !facts.moves()) {
+  if (analysis.fit != AnalysisFit::impossible && !facts.inspection.quality.velocity.empty() && !facts.moves) {
     analysis.fit = AnalysisFit::impossible;
     analysis.why = "no joint moves";
     analysis.help = "log a motion that uses all joints";

@@ -65,15 +65,16 @@ ResultTable empty_table(const char* id, const char* title, std::string text) {
   return {id, title, std::move(text), {"controller", "recipe", "training patterns"}, error_columns(), {}};
 }
 
-constexpr int kHeld = 0, kFast = 1, kPd = 2;  // places in kControllerVariants
-
-}  // namespace
-
+/// "900 clean", or with its noise.
 std::string training_set(const ClassifierRecipe& recipe) {
   const int patterns = recipe.trajectories * kPatternsPerTrajectory;
   if (recipe.sigma == 0.0) return fmt::format("{} clean", patterns);
   return fmt::format("{}, sigma {}", patterns, recipe.sigma);
 }
+
+constexpr int kHeld = 0, kFast = 1, kPd = 2;  // places in kControllerVariants
+
+}  // namespace
 
 ClassifierResults::ClassifierResults(std::vector<ClassifierRecipe> recipes, int seeds)
     : recipes_(std::move(recipes)), seeds_(seeds), findings_(kControllers * seeds) {}

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -13,9 +12,6 @@
 #include "lib/reproduce/page/result_table.hpp"
 
 namespace faultline {
-
-/// "900 clean", or with its noise.
-std::string training_set(const ClassifierRecipe& recipe);
 
 /// What one experiment (seed) found under one controller.
 struct ClassifierFindings {

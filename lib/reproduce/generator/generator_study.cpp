@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <string>
 
 #include "lib/reproduce/generator/generator_measurements.hpp"
