@@ -10,17 +10,27 @@
 namespace faultline {
 namespace {
 
+constexpr double kDegree = std::numbers::pi / 180.0, kMilli = 1e-3;  // rad in a degree; m in mm, s in ms
+
 void scale(std::vector<double>& values, double by) {
   for (double& v : values) v *= by;
 }
 
-void scale_motion(Log& log, int j, double by) {
-  scale(log.q[j], by);
+void scale_velocity(Log& log, int j, double by) {
   if (!log.dq.empty()) scale(log.dq[j], by);
 }
 
+void scale_motion(Log& log, int j, double by) {
+  scale(log.q[j], by);
+  scale_velocity(log, j, by);
+}
+
+void swap_motion(Log& log, int j, int k) {
+  std::swap(log.q[j], log.q[k]);
+  if (!log.dq.empty()) std::swap(log.dq[j], log.dq[k]);
+}
+
 void add_units(const Chain& chain, std::vector<ColumnInterpretation>& out) {
-  constexpr double kDegree = std::numbers::pi / 180.0, kMilli = 1e-3;
   const int n = chain.joints();
   const auto is_revolute = [&chain](int j) { return chain.geometry[j].kind == AxisKind::revolute; };
   out.push_back({"the angles are in degrees",
@@ -41,9 +51,8 @@ void add_units(const Chain& chain, std::vector<ColumnInterpretation>& out) {
                    fmt::format("unit = \"{}\" for q{}", unit, j + 1),
                    [j, by](Log& log) { scale(log.q[j], by); }});
     out.push_back({fmt::format("dq{} is in {}/s", j + 1, unit),
-                   fmt::format("unit = \"{}/s\" for dq{}", unit, j + 1), [j, by](Log& log) {
-                     if (!log.dq.empty()) scale(log.dq[j], by);
-                   }});
+                   fmt::format("unit = \"{}/s\" for dq{}", unit, j + 1),
+                   [j, by](Log& log) { scale_velocity(log, j, by); }});
   }
 }
 
@@ -65,9 +74,7 @@ void add_signs(const Chain& chain, std::vector<ColumnInterpretation>& out) {
                    fmt::format("sign = -1 for q{0} and dq{0}", j + 1),
                    [j](Log& log) { scale_motion(log, j, -1.0); }});
     out.push_back({fmt::format("dq{} has the opposite sign", j + 1), fmt::format("sign = -1 for dq{}", j + 1),
-                   [j](Log& log) {
-                     if (!log.dq.empty()) scale(log.dq[j], -1.0);
-                   }});
+                   [j](Log& log) { scale_velocity(log, j, -1.0); }});
   }
 }
 
@@ -79,10 +86,7 @@ void add_swaps(const Chain& chain, std::vector<ColumnInterpretation>& out) {
                      [j, k](Log& log) { std::swap(log.tau[j], log.tau[k]); }});
       out.push_back({fmt::format("joints {} and {} are swapped in q and dq", j + 1, k + 1),
                      fmt::format("the other columns for q{0}, dq{0} and q{1}, dq{1}", j + 1, k + 1),
-                     [j, k](Log& log) {
-                       std::swap(log.q[j], log.q[k]);
-                       if (!log.dq.empty()) std::swap(log.dq[j], log.dq[k]);
-                     }});
+                     [j, k](Log& log) { swap_motion(log, j, k); }});
     }
 }
 
@@ -93,16 +97,12 @@ bool has_axis(const Chain& chain, AxisKind kind) {
 }
 
 void add_common_units(const Chain& chain, std::vector<ColumnInterpretation>& out) {
-  constexpr double kMilli = 1e-3, kDegree = std::numbers::pi / 180.0;
   const auto on_axes = [&chain](AxisKind kind, double by, bool positions) {
     std::vector<int> joints;
     for (int j = 0; j < chain.joints(); ++j)
       if (chain.geometry[j].kind == kind) joints.push_back(j);
     return [joints, by, positions](Log& log) {
-      for (const int j : joints) {
-        if (positions) scale(log.q[j], by);
-        if (!log.dq.empty()) scale(log.dq[j], by);
-      }
+      for (const int j : joints) positions ? scale_motion(log, j, by) : scale_velocity(log, j, by);
     };
   };
   if (has_axis(chain, AxisKind::prismatic))
@@ -140,25 +140,9 @@ void add_swapped_joints(const Chain& chain, std::vector<ColumnInterpretation>& o
                        "for joint {1}",
                        j + 1, k + 1),
            [j, k](Log& log) {
-             std::swap(log.q[j], log.q[k]);
+             swap_motion(log, j, k);
              std::swap(log.tau[j], log.tau[k]);
-             if (!log.dq.empty()) std::swap(log.dq[j], log.dq[k]);
            }});
-}
-
-/// Adds gravity along another axis, or none: an arm on its side, hanging, or moving horizontally.
-void add_gravity(const Chain& chain, std::vector<ColumnInterpretation>& out) {
-  constexpr double kG = 9.81, kApart = 1.0;  // m/s^2
-  std::vector<Eigen::Vector3d> tried{Eigen::Vector3d::Zero()};
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {1.0, -1.0}) tried.push_back(sign * kG * Eigen::Vector3d::Unit(axis));
-  for (const Eigen::Vector3d& gravity : tried) {
-    if ((gravity - chain.gravity).norm() < kApart) continue;
-    const std::string text = fmt::format("[{:g}, {:g}, {:g}]", gravity[0], gravity[1], gravity[2]);
-    out.push_back({fmt::format("gravity is {}", text),
-                   fmt::format("write gravity = {} into the robot file", text), [](Log&) {},
-                   [gravity](Chain& other) { other.gravity = gravity; }});
-  }
 }
 
 std::vector<ColumnInterpretation> with_cures_into_columns(std::vector<ColumnInterpretation> readings) {
@@ -189,8 +173,18 @@ std::vector<ColumnInterpretation> common_interpretations(const Chain& chain) {
 }
 
 std::vector<ColumnInterpretation> gravity_interpretations(const Chain& chain) {
+  constexpr double kG = 9.81, kApart = 1.0;  // m/s^2
+  std::vector<Eigen::Vector3d> tried{Eigen::Vector3d::Zero()};
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) tried.push_back(sign * kG * Eigen::Vector3d::Unit(axis));
   std::vector<ColumnInterpretation> readings;
-  add_gravity(chain, readings);
+  for (const Eigen::Vector3d& gravity : tried) {
+    if ((gravity - chain.gravity).norm() < kApart) continue;
+    const std::string text = fmt::format("[{:g}, {:g}, {:g}]", gravity[0], gravity[1], gravity[2]);
+    readings.push_back({fmt::format("gravity is {}", text),
+                        fmt::format("write gravity = {} into the robot file", text), [](Log&) {},
+                        [gravity](Chain& other) { other.gravity = gravity; }});
+  }
   return readings;
 }
 

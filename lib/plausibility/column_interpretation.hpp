@@ -23,7 +23,7 @@ struct ColumnInterpretation {
 std::vector<ColumnInterpretation> column_interpretations(const Chain& chain);
 /// Returns other units of several joints, swapped and reversed joints: detectable if the robot is known.
 std::vector<ColumnInterpretation> common_interpretations(const Chain& chain);
-/// Returns other directions of gravity, or none.
+/// Returns gravity along another axis, or none: an arm on its side, hanging, or moving horizontally.
 std::vector<ColumnInterpretation> gravity_interpretations(const Chain& chain);
 
 }  // namespace faultline
