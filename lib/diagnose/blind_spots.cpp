@@ -24,6 +24,12 @@ std::string what_is_missing(const UnjudgedStretch& stretch) {
   return stretch.lacks_torque ? "its position and its torque are missing" : "its position is missing";
 }
 
+/// The words that a stretch begins with, up to "judged".
+std::string not_judged(const UnjudgedStretch& stretch) {
+  return stretch.joint == 0 ? "no joint could be judged"
+                            : fmt::format("joint {} could not be judged", stretch.joint);
+}
+
 }  // namespace
 
 std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity) {
@@ -46,14 +52,11 @@ std::string unjudged_words(const UnjudgedStretch& stretch, const LogFacts& log) 
   const double period_s = log.sample_period_s;
   const std::string end = stretch.end_s == log.end_s ? ", the end of the log" : "";
   if (stretch.share < 1.0)
-    return fmt::format("{} could {}be judged in {:.0f} % of the time from {} to {}{}: {}, repeatedly",
-                       stretch.joint == 0 ? std::string("no joint") : fmt::format("joint {}", stretch.joint),
-                       stretch.joint == 0 ? "" : "not ", kPercentOfTime * stretch.share,
-                       time_text(stretch.start_s, period_s), time_text(stretch.end_s, period_s), end,
+    return fmt::format("{} in {:.0f} % of the time from {} to {}{}: {}, repeatedly", not_judged(stretch),
+                       kPercentOfTime * stretch.share, time_text(stretch.start_s, period_s),
+                       time_text(stretch.end_s, period_s), end,
                        stretch.joint == 0 ? "rows are missing or empty" : what_is_missing(stretch));
-  return fmt::format("{} could {}be judged from {} to {}{}: {}",
-                     stretch.joint == 0 ? std::string("no joint") : fmt::format("joint {}", stretch.joint),
-                     stretch.joint == 0 ? "" : "not ", time_text(stretch.start_s, period_s),
+  return fmt::format("{} from {} to {}{}: {}", not_judged(stretch), time_text(stretch.start_s, period_s),
                      time_text(stretch.end_s, period_s), end, what_is_missing(stretch));
 }
 

@@ -42,8 +42,8 @@ std::vector<std::string> rough_spots(const std::vector<double>& roughness);
 /// States the size below which a fault may be missed, a sentence for each kind that has a size.
 std::vector<std::string> detectability_sentences(const std::vector<Detectability>& reach, const Chain& chain);
 
-/// The size from which on a fault is surely found, such as "22 %" or "0.004 rad"; "not surely" if no size is
-/// large enough, "" for kinds without a size.
+/// The size from which on a fault is surely found, such as "22 %" or "0.004 rad"; "at any size" if no size is
+/// large enough to be surely found, "" for kinds without a size.
 std::string detectable_size_text(const Detectability& reach, const Chain& chain);
 
 }  // namespace faultline

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lib/diagnose/decide_episode.hpp"
 
-#include "lib/diagnose/decision.hpp"
 #include "lib/diagnose/finding.hpp"
 #include "lib/diagnose/precedents.hpp"
 
@@ -22,13 +21,7 @@ ConfidenceSource confidence_source(DecidedBy decided_by) {
 }
 
 FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model, const CaseBase& cases) {
-  DescribedEpisode described = describe_episode(observed, model);
-  DecisionBasis basis{observed.fault.label(),
-                      observed.fault.could_also_be,
-                      std::move(described.evidence),
-                      std::move(described.episode),
-                      {},
-                      observed.fault.limit};
+  DecisionBasis basis = describe_episode(observed, model);
   basis.votes = votes_on(basis.episode, cases);
   Decision decision = decide(basis);
   decision.confidence = calibrated(decision, model.confidence);
@@ -37,8 +30,11 @@ FaultFinding decide_episode(const MonitoredEpisode& observed, const Model& model
   return finding;
 }
 
-DescribedEpisode describe_episode(const MonitoredEpisode& observed, const Model& model) {
-  DescribedEpisode out;
+DecisionBasis describe_episode(const MonitoredEpisode& observed, const Model& model) {
+  DecisionBasis out;
+  out.likeliest = observed.fault.label();
+  out.as_likely = observed.fault.could_also_be;
+  out.limit = observed.fault.limit;
   out.evidence = evidence_by_label(observed.fault, observed.end_s, model.labels, model.motion);
   Episode& episode = out.episode;
   episode.features = episode_features(out.evidence, observed.end_s - observed.onset_s(), observed.residuals,

@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
-#include "lib/cases/case.hpp"
 #include "lib/cases/case_base.hpp"
-#include "lib/classify/episode_features.hpp"
+#include "lib/diagnose/decision.hpp"
 #include "lib/diagnose/diagnosis.hpp"
 #include "lib/diagnose/monitor/monitored_log.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {
 
-/// An episode in the terms of a decision, before it is made.
-struct DescribedEpisode {
-  std::vector<LabelEvidence> evidence;  ///< of each label
-  Episode episode;  ///< as the case base compares it; without opinions if the networks are not trained
-};
-
-DescribedEpisode describe_episode(const MonitoredEpisode& observed, const Model& model);
+/// Returns an episode in the terms of a decision, without votes, and without the opinions of networks that
+/// are not trained.
+DecisionBasis describe_episode(const MonitoredEpisode& observed, const Model& model);
 
 /// Decides which fault an episode is: evidence by label -> features -> the opinions of MLP and RBFN -> votes
 /// of similar cases -> the decision, from which the texts of the finding follow. If networks and votes decide

@@ -21,7 +21,6 @@
 #include "lib/diagnose/question/check_interpretation.hpp"
 #include "lib/diagnose/question/find_column_change.hpp"
 #include "lib/diagnose/relation/relation_findings.hpp"
-#include "lib/diagnose/relation/tracking_findings.hpp"
 #include "lib/diagnose/verdict.hpp"
 #include "lib/log/recorder/corrected_source.hpp"
 #include "lib/model/model_files.hpp"
@@ -35,10 +34,10 @@ constexpr double kLittleLeft = 0.02;  // residual, share of the excess over the 
 /// Adds lasting friction at joints without another finding.
 void add_lasting_friction(const MonitoredLog& run, const Model& model, std::vector<FaultFinding>& faults) {
   const std::vector<FaultFinding> named = faults;
-  for (const LastingFriction& friction : lasting_friction(run.day, run.log.start_s, run.log.end_s))
+  for (const DayEffect& friction : lasting_friction(run.day))
     if (std::none_of(named.begin(), named.end(),
-                     [&](const FaultFinding& other) { return other.label.joint == friction.effect.joint; }))
-      faults.push_back(finding_of(friction, model.robot.chain));
+                     [&](const FaultFinding& other) { return other.label.joint == friction.joint; }))
+      faults.push_back(finding_of(friction, run.log, model.robot.chain));
 }
 
 std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, const CaseBase& cases) {

@@ -127,8 +127,7 @@ struct UnjudgedStretch {
   double start_s = 0.0;  ///< last row before it that was judged, or the first row
   double end_s = 0.0;    ///< first row after it that was judged, or the last row
   bool lacks_position = false, lacks_torque = false;
-  bool is_last = false;  ///< it lasts to the end of its run
-  double share = 1.0;    ///< of it that was not judged: below 1 if some rows in it were judged
+  double share = 1.0;  ///< of it that was not judged: below 1 if some rows in it were judged
 };
 
 struct LogFacts {

@@ -164,13 +164,13 @@ FaultFinding finding_of(const DecidedEpisode& decided, const Model& model) {
   return finding;
 }
 
-FaultFinding finding_of(const LastingFriction& fault, const Chain& chain) {
-  const ConditionItem item = condition_of({fault.effect}, chain).front();
+FaultFinding finding_of(const DayEffect& friction, const LogFacts& log, const Chain& chain) {
+  const ConditionItem item = condition_of({friction}, chain).front();
   FaultFinding finding;
   finding.label = {FaultKind::friction_increase, item.joint};
-  finding.onset_s = fault.start_s;
-  finding.alarm_s = fault.end_s;
-  finding.end_s = fault.end_s;
+  finding.onset_s = log.start_s;
+  finding.alarm_s = log.end_s;
+  finding.end_s = log.end_s;
   finding.confidence = kSureOfFriction;
   finding.decided_by = DecidedBy::evidence;
   finding.evidence = {{item.name, item.value, item.unit,
@@ -197,13 +197,12 @@ FaultFinding finding_of(const SampleAlarm& alarm) {
   return finding;
 }
 
-std::vector<LastingFriction> lasting_friction(const std::vector<DayEffect>& day, double start_s,
-                                              double end_s) {
-  std::vector<LastingFriction> out;
+std::vector<DayEffect> lasting_friction(const std::vector<DayEffect>& day) {
+  std::vector<DayEffect> out;
   for (const DayEffect& effect : day)
     if (effect.kind == DayEffectKind::friction &&
         effect.value - kNormal95 * effect.std > kFar * effect.normal_range())
-      out.push_back({effect, start_s, end_s});
+      out.push_back(effect);
   return out;
 }
 

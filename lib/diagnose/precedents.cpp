@@ -25,12 +25,6 @@ struct Comparing {
   std::vector<EpisodeFeature> list;  ///< empty if the base compares other features than the model has
 };
 
-Comparing comparing(const DecisionBasis& basis, const CaseBase& cases, const Model& model) {
-  std::vector<EpisodeFeature> list = episode_feature_list(model.labels, model.robot.joints());
-  if (list.size() != cases.metric().features.size()) list.clear();
-  return {basis, cases, model, usual_features(cases), std::move(list)};
-}
-
 std::vector<PrecedentFeature> as_precedents(const std::vector<FeatureMatch>& matches, const Case& c,
                                             const Comparing& by) {
   std::vector<PrecedentFeature> out;
@@ -88,7 +82,9 @@ std::vector<Neighbour> more_cases(const DecisionBasis& basis, const CaseBase& ca
 }  // namespace
 
 std::vector<Precedent> precedents_of(const DecisionBasis& basis, const CaseBase& cases, const Model& model) {
-  const Comparing by = comparing(basis, cases, model);
+  std::vector<EpisodeFeature> list = episode_feature_list(model.labels, model.robot.joints());
+  if (list.size() != cases.metric().features.size()) list.clear();
+  const Comparing by{basis, cases, model, usual_features(cases), std::move(list)};
   std::vector<Precedent> precedents;
   for (const Neighbour& n : basis.votes.precedents) precedents.push_back(precedent_of(n, true, by));
   for (const Neighbour& n : more_cases(basis, cases)) precedents.push_back(precedent_of(n, false, by));

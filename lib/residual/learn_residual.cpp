@@ -167,20 +167,16 @@ Pools draw(std::span<LogSource* const> logs, const TransitionShape& shape, std::
   return pools;
 }
 
-/// Mean squared errors of the generator, and of the prediction that nothing changes (LearnedResidual).
-struct MotionErrors {
-  double normalised_mse = 0.0, persistence_mse = 0.0;
-};
-
-MotionErrors motion_errors(const ResidualGenerator& generator, const Transitions& check) {
-  const Index n = generator.joints();
-  MatrixXd state(2 * n, check.count());
+/// Sets the mean squared errors of what was learned.
+void measure_errors(const Transitions& check, LearnedResidual& learned) {
+  const ResidualGenerator& generator = learned.generator;
+  MatrixXd state(2 * generator.joints(), check.count());
   state << check.next_q, check.next_dq;
   const VectorXd factor = range_scaler(state).factor;
   const MatrixXd change = measured_change(generator, check);
   const MatrixXd error = change - predicted_change(generator, check);
-  return {(factor.asDiagonal() * error).squaredNorm() / static_cast<double>(error.size()),
-          (factor.asDiagonal() * change).squaredNorm() / static_cast<double>(change.size())};
+  learned.normalised_mse = (factor.asDiagonal() * error).squaredNorm() / static_cast<double>(error.size());
+  learned.persistence_mse = (factor.asDiagonal() * change).squaredNorm() / static_cast<double>(change.size());
 }
 
 ResidualGenerator untrained(const Robot& robot, const Survey& survey, const TransitionShape& shape,
@@ -208,10 +204,12 @@ void check_amount(const Pools& pools) {
 
 }  // namespace
 
-FittedGenerator fit_residual_generator(ResidualGenerator untrained, const Transitions& training,
+LearnedResidual fit_residual_generator(ResidualGenerator untrained, const Transitions& training,
                                        const Transitions& validation, const ResidualOptions& options,
                                        const Progress& progress) {
-  FittedGenerator out{std::move(untrained), {}};
+  LearnedResidual out;
+  out.generator = std::move(untrained);
+  out.training_patterns = training.count();
   ResidualGenerator& generator = out.generator;
   if (generator.kind == ResidualKind::physics) return out;
   generator.inputs = range_scaler(network_inputs(generator, training));
@@ -252,21 +250,14 @@ LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const
   const Transitions check = pools.check.drawn();
   Transitions training = pools.training.drawn();
 
-  LearnedResidual learned;
   if (options.kind == ResidualKind::mlp && identified.identified && options.twin_share > 0.0)
     training =
         joined(training, twin_transitions(training, shape, identified.chain,
                                           static_cast<int>(options.twin_share * options.max_patterns)));
-  learned.training_patterns = training.count();
-  const Transitions validation = pools.validation.drawn();
-  FittedGenerator fitted = fit_residual_generator(untrained(identified, survey, shape, options), training,
-                                                  validation, options, progress);
-  learned.generator = std::move(fitted.generator);
-  learned.training = std::move(fitted.training);
+  LearnedResidual learned = fit_residual_generator(untrained(identified, survey, shape, options), training,
+                                                   pools.validation.drawn(), options, progress);
   learned.generator.healthy = healthy_residuals(learned.generator, check);
-  const MotionErrors errors = motion_errors(learned.generator, check);
-  learned.normalised_mse = errors.normalised_mse;
-  learned.persistence_mse = errors.persistence_mse;
+  measure_errors(check, learned);
   return learned;
 }
 

@@ -73,7 +73,6 @@ void ResidualSummary::add(const Residuals& residuals) {
       }
       sums.velocity2 += velocity * velocity;
       sums.position2 += position * position;
-      if (std::isfinite(residuals.ratio(j, i))) sums.ratio += residuals.ratio(j, i);
     }
   }
 }
@@ -83,14 +82,12 @@ std::vector<JointResidual> ResidualSummary::joints() const {
   for (const Sums& sums : sums_) {
     JointResidual joint;
     joint.joint = static_cast<int>(out.size()) + 1;
-    joint.count = sums.count;
     if (sums.count > 0) {
       const double count = static_cast<double>(sums.count);
       joint.velocity_rms = std::sqrt(sums.velocity2 / count);
       joint.velocity_peak = sums.velocity_peak;
       joint.velocity_peak_s = sums.velocity_peak_s;
       joint.position_rms = std::sqrt(sums.position2 / count);
-      joint.mean_ratio = sums.ratio / count;
     }
     out.push_back(joint);
   }

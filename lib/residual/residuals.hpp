@@ -54,9 +54,6 @@ struct JointResidual {
   double velocity_peak = std::numeric_limits<double>::quiet_NaN();  ///< largest magnitude
   double velocity_peak_s = std::numeric_limits<double>::quiet_NaN();
   double position_rms = std::numeric_limits<double>::quiet_NaN();
-  double mean_ratio =
-      std::numeric_limits<double>::quiet_NaN();  ///< of Residuals::ratio: about -1 for a free joint
-  std::int64_t count = 0;                        ///< predictions that count: those without missing numbers
 };
 
 /// Sums residuals of a log, or of an interval of it, as they stream by.
@@ -70,13 +67,11 @@ class ResidualSummary {
   void add(const Residuals& residuals);
   /// Returns the summary so far, one entry a joint.
   std::vector<JointResidual> joints() const;
-  double from_s() const { return from_s_; }
-  double to_s() const { return to_s_; }
 
  private:
   struct Sums {
-    std::int64_t count = 0;
-    double velocity2 = 0.0, position2 = 0.0, ratio = 0.0;
+    std::int64_t count = 0;  ///< predictions without missing numbers
+    double velocity2 = 0.0, position2 = 0.0;
     double velocity_peak = 0.0, velocity_peak_s = 0.0;
   };
 

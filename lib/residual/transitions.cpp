@@ -50,8 +50,7 @@ Transitions sized(int joints, int count) {
   out.row.resize(count);
   out.time.resize(count);
   out.duration.resize(count);
-  for (auto* matrix : {&out.q, &out.dq, &out.tau, &out.mean_tau, &out.next_q, &out.next_dq})
-    matrix->resize(joints, count);
+  for_each_matrix(out, out, [&](auto& matrix, const auto&) { matrix.resize(joints, count); });
   return out;
 }
 
@@ -126,13 +125,7 @@ Transitions joined(const Transitions& first, const Transitions& second) {
 }
 
 void TransitionReservoir::offer(const Transitions& transitions, int column) {
-  if (offered_ == 0) {
-    pool_.row.resize(capacity_);
-    pool_.time.resize(capacity_);
-    pool_.duration.resize(capacity_);
-    for_each_matrix(pool_, transitions,
-                    [&](auto& mine, const auto& theirs) { mine.resize(theirs.rows(), capacity_); });
-  }
+  if (offered_ == 0) pool_ = sized(static_cast<int>(transitions.q.rows()), capacity_);
   ++offered_;
   const std::int64_t place = kept_ < capacity_ ? kept_++ : static_cast<std::int64_t>(random_.below(offered_));
   if (place >= capacity_) return;

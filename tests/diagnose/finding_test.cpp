@@ -103,7 +103,7 @@ TEST(EpisodeFacts, KeepTheFeaturesUnderTheNamesOfTheCaseBase) {
 
 TEST(LastingFriction, IsFrictionWhoseWholeIntervalIsBeyondTwiceTheNormalRange) {
   const auto friction = [](double value, double std) {
-    return lasting_friction({{DayEffectKind::friction, 2, value, std, 0.1}}, 0.0, 9.0).size();
+    return lasting_friction({{DayEffectKind::friction, 2, value, std, 0.1}}).size();
   };
   EXPECT_EQ(friction(0.5, 0.01), 1u) << "the normal range is 20 %";
   EXPECT_EQ(friction(0.5, 0.2), 0u) << "the log hardly determines it";
@@ -112,7 +112,7 @@ TEST(LastingFriction, IsFrictionWhoseWholeIntervalIsBeyondTwiceTheNormalRange) {
 }
 
 TEST(LastingFriction, OtherEffectsTakeOverFromEachOtherAndAreNone) {
-  EXPECT_TRUE(lasting_friction({{DayEffectKind::torque_gain, 1, 5.0, 0.01, 0.1}}, 0.0, 9.0).empty());
+  EXPECT_TRUE(lasting_friction({{DayEffectKind::torque_gain, 1, 5.0, 0.01, 0.1}}).empty());
 }
 
 }  // namespace

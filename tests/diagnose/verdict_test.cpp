@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "lib/core/issue.hpp"
-#include "lib/diagnose/merge_faults.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/log/recorder/corrected_source.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "lib/diagnose/merge_faults.hpp"
+#include "lib/diagnose/verdict.hpp"
 #include "lib/fault/fault_words.hpp"
 
 namespace faultline {

@@ -28,6 +28,36 @@ constexpr int kMarginRows = 250;         // with so many on either side; farther
 constexpr std::array<double, 3> kGaussPoint{0.1127016653792583, 0.5, 0.8872983346207417};
 constexpr std::array<double, 3> kGaussWeight{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
+/// The robot with the effects of a log's day, and the relation between logged torque and drive torque.
+struct RobotOfTheDay {
+  Chain chain;
+  std::vector<double> gain, offset;  // by joint: the drive gives gain * logged torque + offset, N m or N
+  double torque_phi = 0.0;           // Robot::torque_phi
+};
+
+/// Returns the identified robot with the friction, torque gain and torque offset that the diagnosis estimated
+/// for the log (Diagnosis::condition).
+RobotOfTheDay robot_of_the_day(const Model& model, const std::vector<ConditionItem>& condition) {
+  const int n = model.robot.joints();
+  RobotOfTheDay robot{model.robot.chain, std::vector<double>(n, 1.0), std::vector<double>(n, 0.0),
+                      model.robot.torque_phi.value_or(0.0)};
+  for (const ConditionItem& item : condition) {
+    const int j = item.joint - 1;
+    if (!std::isfinite(item.value)) continue;
+    if (item.kind == DayEffectKind::friction) {
+      const double scale = std::max(1.0 + item.value / kCurvePercent, kLeastFriction);
+      robot.chain.friction[j].viscous *= scale;
+      robot.chain.friction[j].coulomb *= scale;
+      robot.chain.friction[j].load *= scale;
+    } else if (item.kind == DayEffectKind::torque_gain) {
+      robot.gain[j] += item.value / kCurvePercent;
+    } else if (item.kind == DayEffectKind::torque_offset) {
+      robot.offset[j] += item.value;
+    }
+  }
+  return robot;
+}
+
 bool is_complete(const Log& segment, int row) {
   const auto finite = [row](const std::vector<double>& values) { return std::isfinite(values[row]); };
   return std::all_of(segment.q.begin(), segment.q.end(), finite) &&
@@ -212,13 +242,12 @@ class TorqueReplay {
         (stretch_.missing() >= kMostMissingRows ||
          segment.time[row] - stretch_.last_time_s() > kGapPeriods * survey_.summary.period_s))
       finish();
-    if (stretch_.empty() && !complete) return segments_.put(nothing());
+    if (stretch_.empty() && !complete)
+      return segments_.put(RequiredTorque::Constant(robot_.chain.joints(), 1, kNaN));
     stretch_.add(segment, row, complete);
     if (stretch_.waiting() >= kChunkRows + kMarginRows)
       segments_.put(stretch_.take(stretch_.rows() - kMarginRows));
   }
-
-  RequiredTorque nothing() const { return RequiredTorque::Constant(robot_.chain.joints(), 1, kNaN); }
 
   const RobotOfTheDay& robot_;
   const LogSurvey& survey_;
@@ -227,27 +256,6 @@ class TorqueReplay {
 };
 
 }  // namespace
-
-RobotOfTheDay robot_of_the_day(const Model& model, const std::vector<ConditionItem>& condition) {
-  const int n = model.robot.joints();
-  RobotOfTheDay robot{model.robot.chain, std::vector<double>(n, 1.0), std::vector<double>(n, 0.0),
-                      model.robot.torque_phi.value_or(0.0)};
-  for (const ConditionItem& item : condition) {
-    const int j = item.joint - 1;
-    if (!std::isfinite(item.value)) continue;
-    if (item.kind == DayEffectKind::friction) {
-      const double scale = std::max(1.0 + item.value / kCurvePercent, kLeastFriction);
-      robot.chain.friction[j].viscous *= scale;
-      robot.chain.friction[j].coulomb *= scale;
-      robot.chain.friction[j].load *= scale;
-    } else if (item.kind == DayEffectKind::torque_gain) {
-      robot.gain[j] += item.value / kCurvePercent;
-    } else if (item.kind == DayEffectKind::torque_offset) {
-      robot.offset[j] += item.value;
-    }
-  }
-  return robot;
-}
 
 void for_each_with_required_torque(LogSource& log, const Model& model, const Diagnosis& diagnosis,
                                    const std::function<void(const Log&, const RequiredTorque&)>& visit) {

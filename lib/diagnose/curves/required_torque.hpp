@@ -11,17 +11,6 @@
 
 namespace faultline {
 
-/// The robot with the effects of a log's day, and the relation between logged torque and drive torque.
-struct RobotOfTheDay {
-  Chain chain;
-  std::vector<double> gain, offset;  ///< by joint: the drive gives gain * logged torque + offset, N m or N
-  double torque_phi = 0.0;           ///< Robot::torque_phi
-};
-
-/// Returns the identified robot with the friction, torque gain and torque offset that the diagnosis estimated
-/// for the log (Diagnosis::condition).
-RobotOfTheDay robot_of_the_day(const Model& model, const std::vector<ConditionItem>& condition);
-
 /// Torque that the robot needs for the motion of a log, in terms of the logged torque: inverse dynamics along
 /// the smoothed motion (smooth_motion()), a row's torque being the mean over the step that it acts in.
 /// joints x rows of the segment, N m or N; NaN at the last row of a stretch, at incomplete rows between two

@@ -65,42 +65,24 @@ int WindowCurves::first_bin_of(int bin, double time_s, const Reached& last) cons
 void WindowCurves::take(const Log& segment, const Residuals& residuals, const RequiredTorque& torque) {
   if (segment.rows() == 0 || segment.time.front() > window_.end_s || segment.time.back() < window_.start_s)
     return;
-  take_rows(segment);
-  if (torque.size() > 0) take_torque(segment, torque);
-  if (residuals.joints() == 0) take_references(segment);
+  for (int k = 0; k < segment.rows(); ++k)
+    if (const int bin = bin_of(segment.time[k]); bin >= 0)
+      take_row(segment, k, bin, torque, residuals.joints() == 0);
   take_predictions(segment, residuals);
   if (!networks_.empty()) take_outputs(residuals);
 }
 
-void WindowCurves::take_rows(const Log& segment) {
-  for (int k = 0; k < segment.rows(); ++k) {
-    const int bin = bin_of(segment.time[k]);
-    if (bin < 0) continue;
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      joints_[j].q.add(bin, segment.q[j][k]);
-      if (!segment.tau.empty()) joints_[j].tau.add(bin, segment.tau[j][k]);
-      if (!segment.dq.empty()) joints_[j].dq.add(bin, segment.dq[j][k]);
-    }
-  }
-}
-
-void WindowCurves::take_torque(const Log& segment, const RequiredTorque& torque) {
-  for (int k = 0; k < segment.rows(); ++k) {
-    const int bin = bin_of(segment.time[k]);
-    if (bin < 0) continue;
-    for (std::size_t j = 0; j < joints_.size(); ++j)
-      joints_[j].tau_required.add(bin, torque(static_cast<Eigen::Index>(j), k));
-  }
-}
-
-void WindowCurves::take_references(const Log& segment) {
-  for (int k = 0; k < segment.rows(); ++k) {
-    const int bin = bin_of(segment.time[k]);
-    if (bin < 0) continue;
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      if (j < segment.q_ref.size()) joints_[j].q_predicted.add(bin, segment.q_ref[j][k]);
-      if (j < segment.dq_ref.size()) joints_[j].dq_predicted.add(bin, segment.dq_ref[j][k]);
-    }
+void WindowCurves::take_row(const Log& segment, int row, int bin, const RequiredTorque& torque,
+                            bool by_reference) {
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    Joint& to = joints_[j];
+    to.q.add(bin, segment.q[j][row]);
+    if (!segment.tau.empty()) to.tau.add(bin, segment.tau[j][row]);
+    if (!segment.dq.empty()) to.dq.add(bin, segment.dq[j][row]);
+    if (torque.size() > 0) to.tau_required.add(bin, torque(static_cast<Eigen::Index>(j), row));
+    if (!by_reference) continue;
+    if (j < segment.q_ref.size()) to.q_predicted.add(bin, segment.q_ref[j][row]);
+    if (j < segment.dq_ref.size()) to.dq_predicted.add(bin, segment.dq_ref[j][row]);
   }
 }
 

@@ -51,9 +51,7 @@ class WindowCurves {
 
   int bin_of(double time_s) const;
   int first_bin_of(int bin, double time_s, const Reached& last) const;
-  void take_rows(const Log& segment);
-  void take_torque(const Log& segment, const RequiredTorque& torque);
-  void take_references(const Log& segment);
+  void take_row(const Log& segment, int row, int bin, const RequiredTorque& torque, bool by_reference);
   void take_predictions(const Log& segment, const Residuals& residuals);
   void take_prediction(const Log& segment, int row, const Residuals& residuals, int i, int bin);
   void take_outputs(const Residuals& residuals);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/diagnose/monitor/log_tally.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/log/time_axis.hpp"
 
@@ -54,19 +55,6 @@ double stated_range(const DayEffect& effect, const Model& model) {
   return 0.0;
 }
 
-/// Number of rows with position and torque of every joint.
-int complete_rows(const Log& log) {
-  int out = 0;
-  for (int k = 0; k < log.rows(); ++k) {
-    const auto has = [k](const JointSignals& signals) {
-      return std::all_of(signals.begin(), signals.end(),
-                         [k](const std::vector<double>& joint) { return std::isfinite(joint[k]); });
-    };
-    out += has(log.q) && has(log.tau);
-  }
-  return out;
-}
-
 }  // namespace
 
 void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::vector<LogRun>& runs) {
@@ -94,11 +82,7 @@ void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::ve
 }
 
 void ExplainMonitor::take_rows(const Log& segment, int begin, int end) {
-  if (begin == end) return;
-  if (window_.rows() == 0)
-    window_ = slice(segment, begin, end);
-  else
-    append(window_, slice(segment, begin, end));
+  if (begin < end) append(window_, slice(segment, begin, end));
 }
 
 void ExplainMonitor::finish() { explain_window(false); }

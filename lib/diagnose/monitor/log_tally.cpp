@@ -59,12 +59,26 @@ std::int64_t rows_lost(const Issues& issues) {
 
 }  // namespace
 
-void check_joints(const Log& segment, const LogSource& log, const Model& model) {
-  const int joints = model.robot.joints();
+void check_joints(const Log& segment, const LogSource& log, const std::string& whose, int joints) {
   if (segment.joints() != joints)
-    throw Error(
-        ErrorCode::input, log.identity().path,
-        joint_count_sentence(log.issues(), segment.joints(), "the model \"" + model.name + "\"", joints));
+    throw Error(ErrorCode::input, log.identity().path,
+                joint_count_sentence(log.issues(), segment.joints(), whose, joints));
+}
+
+void check_joints(const Log& segment, const LogSource& log, const Model& model) {
+  check_joints(segment, log, "the model \"" + model.name + "\"", model.robot.joints());
+}
+
+int complete_rows(const Log& log) {
+  int out = 0;
+  for (int k = 0; k < log.rows(); ++k) {
+    const auto has = [k](const JointSignals& signals) {
+      return std::all_of(signals.begin(), signals.end(),
+                         [k](const std::vector<double>& joint) { return std::isfinite(joint[k]); });
+    };
+    out += has(log.q) && has(log.tau);
+  }
+  return out;
 }
 
 void LogTally::take(const Log& segment, const LogSource& log, const Model& model) {
@@ -74,13 +88,7 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
   if (segment.rows() > 0) end_s = segment.time.back();
   rows += segment.rows();
   has_velocity = !segment.dq.empty();
-  for (int k = 0; k < segment.rows(); ++k) {
-    bool complete = true;
-    for (int j = 0; j < segment.joints(); ++j)
-      complete = complete && std::isfinite(segment.q[j][k]) &&
-                 (segment.tau.empty() || std::isfinite(segment.tau[j][k]));
-    judgeable_rows += complete;
-  }
+  judgeable_rows += complete_rows(segment);
 }
 
 /// Returns the joints, from 1, whose range is less than kHardly of that of the healthy logs.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 
 #include "lib/diagnose/diagnosis.hpp"
 #include "lib/diagnose/monitor/unjudged_time.hpp"
@@ -12,8 +13,13 @@
 
 namespace faultline {
 
-/// Throws Error(input) when the log has other joints than the model's robot.
+/// Throws Error(input) when the log has other joints than the robot of `whose`, such as "the robot file".
+void check_joints(const Log& segment, const LogSource& log, const std::string& whose, int joints);
+/// The same for the robot of a model.
 void check_joints(const Log& segment, const LogSource& log, const Model& model);
+
+/// Returns the number of rows with the position and, if the log has torque, the torque of every joint.
+int complete_rows(const Log& log);
 
 /// Counts what is read of a log, however it is judged.
 struct LogTally {

@@ -49,65 +49,49 @@ class TappedSource : public LogSource {
 class RelationMonitor {
  public:
   /// `relations` outlive this.
-  RelationMonitor(const std::vector<SignalRelation>& relations, bool by_tracking);
+  RelationMonitor(const std::vector<SignalRelation>& relations, bool by_tracking) {
+    for (const SignalRelation& relation : relations) {
+      watches_.emplace_back(relation);
+      is_watched_.push_back((relation.kind == RelationKind::tracking) == by_tracking);
+    }
+  }
 
-  bool monitors_any() const;
-  void take(const Log& segment);
+  bool monitors_any() const {
+    return std::any_of(is_watched_.begin(), is_watched_.end(), [](char watched) { return watched != 0; });
+  }
+  void take(const Log& segment) {
+    for (std::size_t i = 0; i < watches_.size(); ++i)
+      if (is_watched_[i]) watches_[i].take(segment);
+  }
   /// After the last segment.
-  void finish();
+  void finish() {
+    for (RelationDetector& watch : watches_) watch.finish();
+  }
 
   /// By onset.
-  std::vector<RelationEpisode> episodes() const;
+  std::vector<RelationEpisode> episodes() const {
+    std::vector<RelationEpisode> all;
+    for (const RelationDetector& watch : watches_)
+      all.insert(all.end(), watch.episodes().begin(), watch.episodes().end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.onset_s < b.onset_s; });
+    return all;
+  }
   /// By relation: for how long the log could be judged, s; 0 for relations that are not watched.
-  std::vector<double> judged_s() const;
+  std::vector<double> judged_s() const { return of_each(&RelationDetector::judged_s); }
   /// By relation: for how long its inputs were beyond the learned range, s.
-  std::vector<double> beyond_s() const;
+  std::vector<double> beyond_s() const { return of_each(&RelationDetector::beyond_s); }
 
  private:
+  std::vector<double> of_each(double (RelationDetector::*number)() const) const {
+    std::vector<double> out;
+    for (const RelationDetector& watch : watches_) out.push_back((watch.*number)());
+    return out;
+  }
+
   std::deque<RelationDetector> watches_;
   std::vector<char> is_watched_;
 };
-
-RelationMonitor::RelationMonitor(const std::vector<SignalRelation>& relations, bool by_tracking) {
-  for (const SignalRelation& relation : relations) {
-    watches_.emplace_back(relation);
-    is_watched_.push_back((relation.kind == RelationKind::tracking) == by_tracking);
-  }
-}
-
-bool RelationMonitor::monitors_any() const {
-  return std::any_of(is_watched_.begin(), is_watched_.end(), [](char watched) { return watched != 0; });
-}
-
-void RelationMonitor::take(const Log& segment) {
-  for (std::size_t i = 0; i < watches_.size(); ++i)
-    if (is_watched_[i]) watches_[i].take(segment);
-}
-
-void RelationMonitor::finish() {
-  for (RelationDetector& watch : watches_) watch.finish();
-}
-
-std::vector<RelationEpisode> RelationMonitor::episodes() const {
-  std::vector<RelationEpisode> all;
-  for (const RelationDetector& watch : watches_)
-    all.insert(all.end(), watch.episodes().begin(), watch.episodes().end());
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.onset_s < b.onset_s; });
-  return all;
-}
-
-std::vector<double> RelationMonitor::judged_s() const {
-  std::vector<double> out;
-  for (const RelationDetector& watch : watches_) out.push_back(watch.judged_s());
-  return out;
-}
-
-std::vector<double> RelationMonitor::beyond_s() const {
-  std::vector<double> out;
-  for (const RelationDetector& watch : watches_) out.push_back(watch.beyond_s());
-  return out;
-}
 
 /// The fault criterion applied to one series of outputs along a log.
 class CriterionDetector {
@@ -115,9 +99,14 @@ class CriterionDetector {
   CriterionDetector(const CriterionOptions& options, const OutputMeaning& meaning)
       : options_(options), meaning_(meaning) {}
 
-  void take(const Eigen::VectorXd& time, const Eigen::MatrixXd& outputs);
+  void take(const Eigen::VectorXd& time, const Eigen::MatrixXd& outputs) {
+    for (const SampleEpisode& episode : apply_criterion(options_, meaning_, time, outputs, state_))
+      episodes_.push_back(episode);
+  }
   /// Ends an open episode, after the last sample.
-  void finish();
+  void finish() {
+    if (const auto open = open_episode(meaning_, state_)) episodes_.push_back(*open);
+  }
   const std::vector<SampleEpisode>& episodes() const { return episodes_; }
 
  private:
@@ -125,23 +114,6 @@ class CriterionDetector {
   OutputMeaning meaning_;
   CriterionState state_;
   std::vector<SampleEpisode> episodes_;
-};
-
-/// The method of the paper: both networks over the residuals of each sample, the fault criterion on their
-/// average (figure 2) and on each alone (figure 1), which gives the opinion of that network. The criterion is
-/// that of the options, with the tuning of the model.
-class SampleMonitor {
- public:
-  SampleMonitor(const SampleMode& samples, const DiagnoseOptions& options);
-
-  void take(const Residuals& residuals);
-  /// After the last segment.
-  void finish();
-  std::vector<SampleAlarm> alarms() const;
-
- private:
-  const SampleClassifier& classifier_;
-  CriterionDetector average_, mlp_, rbfn_;
 };
 
 /// Returns the opinion of one network alone during an episode.
@@ -159,39 +131,39 @@ CriterionDetector make_detector(const SampleMode& samples, const DiagnoseOptions
   return {criterion, {samples.classifier.classes, samples.classifier.prior}};
 }
 
-void CriterionDetector::take(const Eigen::VectorXd& time, const Eigen::MatrixXd& outputs) {
-  for (const SampleEpisode& episode : apply_criterion(options_, meaning_, time, outputs, state_))
-    episodes_.push_back(episode);
-}
+/// The method of the paper: both networks over the residuals of each sample, the fault criterion on their
+/// average (figure 2) and on each alone (figure 1), which gives the opinion of that network. The criterion is
+/// that of the options, with the tuning of the model.
+class SampleMonitor {
+ public:
+  SampleMonitor(const SampleMode& samples, const DiagnoseOptions& options)
+      : classifier_(samples.classifier),
+        average_(make_detector(samples, options)),
+        mlp_(average_),
+        rbfn_(average_) {}
 
-void CriterionDetector::finish() {
-  if (const auto open = open_episode(meaning_, state_)) episodes_.push_back(*open);
-}
+  void take(const Residuals& residuals) {
+    const SampleOutputs outputs = classify_samples(classifier_, residuals);
+    average_.take(outputs.time, outputs.average());
+    mlp_.take(outputs.time, outputs.mlp);
+    rbfn_.take(outputs.time, outputs.rbfn);
+  }
+  /// After the last segment.
+  void finish() {
+    for (CriterionDetector* each : {&average_, &mlp_, &rbfn_}) each->finish();
+  }
+  std::vector<SampleAlarm> alarms() const {
+    std::vector<SampleAlarm> alarms;
+    for (const SampleEpisode& episode : average_.episodes())
+      alarms.push_back(
+          {episode, {opinion_on(episode, mlp_.episodes()), opinion_on(episode, rbfn_.episodes())}});
+    return alarms;
+  }
 
-SampleMonitor::SampleMonitor(const SampleMode& samples, const DiagnoseOptions& options)
-    : classifier_(samples.classifier),
-      average_(make_detector(samples, options)),
-      mlp_(average_),
-      rbfn_(average_) {}
-
-void SampleMonitor::take(const Residuals& residuals) {
-  const SampleOutputs outputs = classify_samples(classifier_, residuals);
-  average_.take(outputs.time, outputs.average());
-  mlp_.take(outputs.time, outputs.mlp);
-  rbfn_.take(outputs.time, outputs.rbfn);
-}
-
-void SampleMonitor::finish() {
-  for (CriterionDetector* each : {&average_, &mlp_, &rbfn_}) each->finish();
-}
-
-std::vector<SampleAlarm> SampleMonitor::alarms() const {
-  std::vector<SampleAlarm> alarms;
-  for (const SampleEpisode& episode : average_.episodes())
-    alarms.push_back(
-        {episode, {opinion_on(episode, mlp_.episodes()), opinion_on(episode, rbfn_.episodes())}});
-  return alarms;
-}
+ private:
+  const SampleClassifier& classifier_;
+  CriterionDetector average_, mlp_, rbfn_;
+};
 
 /// Whether the log has no torque that the model can judge. Rewinds it before and after. Throws Error(input)
 /// for a log with another number of joints than the model's robot.
@@ -217,17 +189,22 @@ RelationMonitor monitored_relations(LogSource& log, const Model& model) {
   return out;
 }
 
-MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
-  RelationMonitor relations(model.relations, true);
+/// Reads a log to its end and returns its facts; `take` gets each segment.
+LogFacts read_facts(LogSource& log, const Model& model, const TappedSource::Tap& take) {
   LogTally tally;
   for (Log segment; log.next(segment);) {
     tally.take(segment, log, model);
     tally.unjudged.take(segment, log.identity().runs);
-    relations.take(segment);
+    take(segment);
   }
-  relations.finish();
+  return log_facts(log, tally, model);
+}
+
+MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
+  RelationMonitor relations(model.relations, true);
   MonitoredLog out;
-  out.log = log_facts(log, tally, model);
+  out.log = read_facts(log, model, [&](const Log& segment) { relations.take(segment); });
+  relations.finish();
   out.log.is_tracked = true;
   out.relation_episodes = relations.episodes();
   out.relations_judged_s = relations.judged_s();
@@ -289,14 +266,9 @@ MonitoredLog monitor_at(LogSource& log, const Model& model, double onset_s, doub
 }
 
 MonitoredLog read_unjudged(LogSource& log, const Model& model) {
-  LogTally tally;
   log.rewind();
-  for (Log segment; log.next(segment);) {
-    tally.take(segment, log, model);
-    tally.unjudged.take(segment, log.identity().runs);
-  }
   MonitoredLog out;
-  out.log = log_facts(log, tally, model);
+  out.log = read_facts(log, model, [](const Log&) {});
   return out;
 }
 

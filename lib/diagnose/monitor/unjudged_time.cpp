@@ -95,7 +95,7 @@ void UnjudgedTime::end_run() {
   for (std::size_t c = 0; c < courses_.size(); ++c) {
     if (courses_[c].lacks_values()) {
       add_piece(c, last_s_ + period_s_);
-      if (last_s_ - courses_[c].judged_s > judged_moment_at_end_s(period_s_)) note_long(c, last_s_, true);
+      if (last_s_ - courses_[c].judged_s > judged_moment_at_end_s(period_s_)) note_long(c, last_s_);
     }
     if (length_s < width_s_) grow(c, std::max(moment_s_, kLeastUnjudgedShare * length_s));
     settle(c);
@@ -106,17 +106,16 @@ void UnjudgedTime::end_run() {
 void UnjudgedTime::judge(std::size_t course, double time_s, bool is_missing_before) {
   Course& of = courses_[course];
   if (of.lacks_values() || is_missing_before) add_piece(course, time_s);
-  if (of.lacks_values() && time_s - of.judged_s > moment_s_) note_long(course, time_s, false);
+  if (of.lacks_values() && time_s - of.judged_s > moment_s_) note_long(course, time_s);
   of.judged_s = time_s;
   of.lacks_position = of.lacks_torque = false;
 }
 
 /// Adds the stretch since the last judged row. Rows without any position are listed by joint.
-void UnjudgedTime::note_long(std::size_t course, double end_s, bool is_last) {
+void UnjudgedTime::note_long(std::size_t course, double end_s) {
   const Course& of = courses_[course];
   if (course > 0 && long_.size() < kMostLong)
-    long_.push_back(
-        {static_cast<int>(course), of.judged_s, end_s, of.lacks_position, of.lacks_torque, is_last});
+    long_.push_back({static_cast<int>(course), of.judged_s, end_s, of.lacks_position, of.lacks_torque});
 }
 
 /// Adds the time since the last judged row to the window, unless it is a long stretch.

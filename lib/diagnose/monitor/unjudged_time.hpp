@@ -46,7 +46,7 @@ class UnjudgedTime {
   void begin_run(double time_s);
   void end_run();
   void judge(std::size_t course, double time_s, bool is_missing_before);
-  void note_long(std::size_t course, double end_s, bool is_last);
+  void note_long(std::size_t course, double end_s);
   void add_piece(std::size_t course, double end_s);
   void settle(std::size_t course);
   void grow(std::size_t course, double enough_s);

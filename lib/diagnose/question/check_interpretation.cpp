@@ -197,7 +197,8 @@ Log next_rows(LogSource& log, Log& rest) {
   return rows;
 }
 
-Beginning find_beginning(LogSource& log, const KnownRobot& robot) {
+/// `first_motion`: reads only up to the first stretch that moves, which is enough for the test of the clock.
+Beginning find_beginning(LogSource& log, const KnownRobot& robot, bool first_motion) {
   Beginning out;
   out.ever.resize(robot.joints());
   out.velocity_fits.resize(robot.joints(), true);
@@ -211,17 +212,9 @@ Beginning find_beginning(LogSource& log, const KnownRobot& robot) {
       out.rows = std::move(rows);
       out.fit = std::move(fit);
     }
-    if (out.fitted && (out.has_every_joint() || i + 1 >= kFewExcerpts)) break;
+    if (first_motion && out.fit.has_motion()) break;
+    if (!first_motion && out.fitted && (out.has_every_joint() || i + 1 >= kFewExcerpts)) break;
   }
-  return out;
-}
-
-/// Reads up to the first stretch that moves, which is enough for the test of the clock.
-Beginning first_motion(LogSource& log, const KnownRobot& robot) {
-  Beginning out;
-  Log rest;
-  for (int i = 0; i < kExcerpts && !out.fit.has_motion(); ++i)
-    if ((out.rows = next_rows(log, rest)).rows() > 0) out.fit = fit_of(out.rows, robot);
   return out;
 }
 
@@ -324,7 +317,7 @@ LogMismatch other_robot(const Beginning& beginning) {
 
 LogMismatch check_clock(LogSource& log, const KnownRobot& robot, double sample_period_s) {
   log.rewind();
-  const Beginning beginning = first_motion(log, robot);
+  const Beginning beginning = find_beginning(log, robot, true);
   log.rewind();
   if (!beginning.fit.has_motion()) return {};
   Best best = clearly_better_than(beginning);
@@ -335,7 +328,7 @@ LogMismatch check_clock(LogSource& log, const KnownRobot& robot, double sample_p
 
 LogMismatch check_interpretation(LogSource& log, const KnownRobot& robot) {
   log.rewind();
-  const Beginning beginning = find_beginning(log, robot);
+  const Beginning beginning = find_beginning(log, robot, false);
   log.rewind();
   if (!beginning.fit.has_motion()) return {};
   if (beginning.fitted || score_of(beginning.fit).worst < kReadingFits)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "lib/diagnose/diagnosis.hpp"
@@ -10,11 +12,6 @@
 
 namespace faultline {
 
-/// Returns the evidence of an episode: its largest mean over the limit, and the log likelihood ratio.
-std::vector<EvidenceItem> limit_evidence(const RelationEpisode& episode);
-/// Confidence in an episode, 0 to 1, by how far it exceeds its limit.
-double confidence_of(const RelationEpisode& episode);
-
 /// Converts the episodes for the joint score with the torque balance (judge_stretch()), without the short
 /// deviation of a drive while the controller reacts to another one. `torque`: that of the torque balance.
 std::vector<SignalStretch> stretches_of(const std::vector<RelationEpisode>& episodes, TorqueMeaning torque);
@@ -22,5 +19,21 @@ std::vector<SignalStretch> stretches_of(const std::vector<RelationEpisode>& epis
 /// Makes the finding of an episode and the fault that explains it; it ends with the log at the latest.
 FaultFinding finding_of(const RelationEpisode& episode, const JudgedStretch& judged, double log_end_s,
                         const Model& model);
+
+// Findings of a log without torque: how the joints follow their references.
+
+/// Makes the findings of joints that do not follow: `locked` if the joint stands still while its reference
+/// moves, else `unknown`. Episodes of position and velocity at the same time are one finding.
+std::vector<FaultFinding> tracking_findings(const std::vector<RelationEpisode>& episodes, const Chain& chain);
+
+/// Number of rows that were compared with a reference, for the relation that was judged for longest.
+/// `judged_s`: by relation, s.
+std::int64_t rows_tracked(const Model& model, const std::vector<double>& judged_s);
+
+/// Returns the joints (from 1) with tracking relations in the model, none of which was judged in the log.
+std::vector<int> joints_not_tracked(const Model& model, const std::vector<double>& judged_s);
+
+/// Lists what such a log cannot show, and the smallest tracking error that is detected, a sentence each.
+std::vector<std::string> tracking_spots(const Model& model, const std::vector<double>& judged_s);
 
 }  // namespace faultline

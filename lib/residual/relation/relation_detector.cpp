@@ -31,7 +31,7 @@ std::vector<double> lengths_of(const SignalRelation& relation) {
 
 }  // namespace
 
-void RelationDetector::Sums::add(const RelationSample& sample) {
+void RelationSums::add(const RelationSample& sample) {
   residual += sample.residual;
   square += sample.residual * sample.residual;
   product += sample.residual * sample.predicted;
@@ -52,10 +52,10 @@ RelationDetector::RelationDetector(const SignalRelation& relation)
     : relation_(relation),
       residual_(relation),
       means_(window_rows(lengths_of(relation), relation.period_s)),
-      predicted_(window_rows(lengths_of(relation), relation.period_s)),
-      by_speed_(window_rows(lengths_of(relation), relation.period_s)),
+      predicted_(means_),
+      by_speed_(means_),
       quiet_(window_rows(std::array{kQuiet_s}, relation.period_s)),
-      quiet_squares_(window_rows(std::array{kQuiet_s}, relation.period_s)) {}
+      quiet_squares_(quiet_) {}
 
 void RelationDetector::take(const Log& segment) {
   if (!has_signals(segment, relation_)) return;
@@ -113,7 +113,7 @@ double RelationDetector::allowed(int window) const {
 }
 
 /// Limit of a mean over about as many rows as the sums have, in the target's unit.
-double RelationDetector::allowed_over(const Sums& sums) const {
+double RelationDetector::allowed_over(const RelationSums& sums) const {
   int window = 0;
   while (window + 1 < static_cast<int>(relation_.windows.size()) && means_.rows(window + 1) <= sums.rows)
     ++window;
@@ -170,13 +170,13 @@ void RelationDetector::open(const RelationSample& sample, const LargestMean& lar
   since_onset_ = {};
   normal_rows_ = 0;
   for (std::size_t i = onset; i + 1 < recent_.size(); ++i) since_onset_.add(recent_[i]);
-  at_first_ = since_onset_;
+  now_->at_first = since_onset_;
   go_on(sample, largest_mean);
 }
 
 void RelationDetector::go_on(const RelationSample& sample, const LargestMean& largest_mean) {
   since_onset_.add(sample);
-  if (sample.time - now_->onset_s < kAtFirst_s) at_first_ = since_onset_;
+  if (sample.time - now_->onset_s < kAtFirst_s) now_->at_first = since_onset_;
   if (largest_mean.times > 1.0 && largest_mean.window < window_) {
     window_ = largest_mean.window;
     peak_ = 0.0;
@@ -205,7 +205,7 @@ void RelationDetector::go_on(const RelationSample& sample, const LargestMean& la
 /// share of the command is missing, while little is commanded.
 bool RelationDetector::says_something() const {
   if (means_.full() <= window_) return false;
-  const Sums& s = deviating_;
+  const RelationSums& s = deviating_;
   if (!(s.predicted_square > 0.0 && s.square > 0.0 && s.rows > 0)) return true;
   const double by_share = s.product * s.product / (s.predicted_square * s.square);
   const double by_offset = s.residual * s.residual / (static_cast<double>(s.rows) * s.square);
@@ -222,29 +222,11 @@ double RelationDetector::end_of(double last_s) const {
   return std::max(last_s - late_s, now_->onset_s + relation_.period_s);
 }
 
-void RelationDetector::describe_first(RelationEpisode& episode) const {
-  const auto rms = [&](double square) {
-    return std::sqrt(square / static_cast<double>(std::max(at_first_.rows, 1LL)));
-  };
-  episode.first_share = at_first_.share();
-  episode.first_share_explains = at_first_.share_explains();
-  episode.first_span = at_first_.high - at_first_.low;
-  episode.first_predicted_span = at_first_.predicted_high - at_first_.predicted_low;
-  episode.first_reference_span = at_first_.reference_high - at_first_.reference_low;
-  episode.first_rms = rms(at_first_.target_square);
-  episode.first_predicted_rms = rms(at_first_.predicted_square);
-  episode.first_reference_rms = rms(at_first_.reference_square);
-}
-
 void RelationDetector::close(bool lasts) {
   if (!lasts) now_->end_s = std::max(now_->end_s, now_->alarm_s);
   RelationEpisode episode = *now_;
   now_.reset();
-  means_.restart();
-  predicted_.restart();
-  by_speed_.restart();
-  quiet_.restart();
-  quiet_squares_.restart();
+  for (WindowedMeans* means : {&means_, &predicted_, &by_speed_, &quiet_, &quiet_squares_}) means->restart();
   recent_.clear();
   episode.lasts = lasts;
   const double rows = std::max((episode.end_s - episode.onset_s) / relation_.period_s + 1.0, 1.0);
@@ -253,7 +235,6 @@ void RelationDetector::close(bool lasts) {
     episode.offset_explains = episode.mean * episode.mean * rows / deviating_.square;
   episode.share = deviating_.share();
   episode.share_explains = deviating_.share_explains();
-  describe_first(episode);
   const bool is_long = episode.end_s - episode.onset_s > kJolt_s;
   if (is_long || std::abs(episode.mean) > kOfItsLength * allowed_over(deviating_))
     episodes_.push_back(episode);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
 #include <limits>
 #include <optional>
@@ -9,6 +11,28 @@
 #include "lib/residual/relation/relation_residual.hpp"
 
 namespace faultline {
+
+/// Sums over rows of an episode.
+struct RelationSums {
+  double residual = 0.0, square = 0.0, product = 0.0, predicted_square = 0.0;
+  double low = std::numeric_limits<double>::infinity(), high = -low;  ///< of the target
+  double predicted_low = low, predicted_high = high;
+  double reference_low = low, reference_high = high;
+  double target_square = 0.0, reference_square = 0.0;
+  long long rows = 0;
+
+  void add(const RelationSample& sample);
+  /// Share of the prediction that is missing, by least squares.
+  double share() const { return predicted_square > 0.0 ? -product / predicted_square : 0.0; }
+  /// Share of the residual's square that share() explains.
+  double share_explains() const {
+    return predicted_square > 0.0 && square > 0.0 ? product * product / (predicted_square * square) : 0.0;
+  }
+  /// Root mean square of what one of the sums of squares belongs to.
+  double rms(double of_square) const {
+    return std::sqrt(of_square / static_cast<double>(std::max(rows, 1LL)));
+  }
+};
 
 /// A stretch of a log in which a signal deviates from its relation to others in the healthy logs.
 struct RelationEpisode {
@@ -26,11 +50,7 @@ struct RelationEpisode {
   double times_limit = 0.0;      ///< largest ratio of a mean to its limit
   double strongest = 0.0;        ///< that mean, in the target's unit
   double nats = 0.0;             ///< log likelihood ratio of an offset in that window against none
-  /// Over the first .3 s at most: as above, and the range (largest minus least) of target and prediction.
-  double first_share = 0.0, first_share_explains = 0.0, first_span = 0.0, first_predicted_span = 0.0;
-  /// Range and root mean square of the first input, which show whether the reference moves.
-  double first_reference_span = 0.0, first_reference_rms = 0.0;
-  double first_rms = 0.0, first_predicted_rms = 0.0;  ///< root mean squares of target and prediction
+  RelationSums at_first{};       ///< over the first .3 s at most
 };
 
 /// Finds episodes of one relation along a log: means of its residual over windows that exceed their limits.
@@ -54,34 +74,16 @@ class RelationDetector {
     double times = 0.0;
   };
 
-  /// Sums over rows of an episode.
-  struct Sums {
-    double residual = 0.0, square = 0.0, product = 0.0, predicted_square = 0.0;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    double predicted_low = low, predicted_high = high;
-    double reference_low = low, reference_high = high;
-    double target_square = 0.0, reference_square = 0.0;
-    long long rows = 0;
-
-    void add(const RelationSample& sample);
-    double share() const { return predicted_square > 0.0 ? -product / predicted_square : 0.0; }
-    /// Share of the residual's square that share() explains.
-    double share_explains() const {
-      return predicted_square > 0.0 && square > 0.0 ? product * product / (predicted_square * square) : 0.0;
-    }
-  };
-
   void look_for_changes(const Log& segment);
   bool is_connected() const;
   void judge(const RelationSample& sample);
   LargestMean farthest() const;
   double allowed(int window) const;
-  double allowed_over(const Sums& sums) const;
+  double allowed_over(const RelationSums& sums) const;
   std::size_t onset_in(int window) const;
   void open(const RelationSample& sample, const LargestMean& largest_mean);
   void go_on(const RelationSample& sample, const LargestMean& largest_mean);
   void close(bool lasts);
-  void describe_first(RelationEpisode& episode) const;
   double end_of(double last_s) const;
   bool says_something() const;
   double quiet_rms_before(std::size_t onset) const;
@@ -95,7 +97,7 @@ class RelationDetector {
   std::vector<RelationEpisode> episodes_;
   std::optional<RelationEpisode> now_;
   int window_ = 0;  ///< the shortest that exceeded its limit in the episode
-  Sums since_onset_, deviating_, at_first_;
+  RelationSums since_onset_, deviating_;
   int normal_rows_ = 0;  ///< judged rows since the last that deviated
   /// Root mean square of the residual before the episode; NaN if it is not known.
   double quiet_rms_ = std::numeric_limits<double>::quiet_NaN();

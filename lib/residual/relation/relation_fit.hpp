@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lib/log/log_source.hpp"
-#include "lib/residual/relation/learn_relations.hpp"
 #include "lib/residual/relation/signal_relation.hpp"
 
 namespace faultline {
@@ -32,13 +31,5 @@ double middle_deviation(const SignalRelation& relation);
 /// Largest torque of the healthy logs; for tracking the range of position or velocity. In the target's
 /// unit.
 double target_scale(const SignalRelation& relation);
-
-/// Returns tracking relations to be fitted: of position and velocity, for joints with a logged reference.
-std::vector<SignalRelation> tracking_candidates(const Log& log, double period_s);
-
-/// Fits one of them, with the memory and the rate limit that explain the healthy logs best. Returns false if
-/// the motion does not follow the reference.
-bool fit_tracking(std::span<LogSource* const> logs, const std::vector<Fold>& folds, double alarms_per_hour,
-                  SignalRelation& relation);
 
 }  // namespace faultline

@@ -19,44 +19,38 @@ constexpr double kPause_s = 0.2;
 }  // namespace
 
 LagLine::LagLine(const SignalRelation& relation)
-    : inputs_(relation.inputs),
-      target_(relation.target),
-      bridges_(relation.kind == RelationKind::tracking),
-      joint_(relation.joint),
-      lags_(relation.lags),
-      stride_(relation.stride),
-      period_s_(relation.period_s),
-      rate_limit_(relation.rate_limit),
-      before_(inputs_.size() * (lags_ * stride_ + 1)),
+    : relation_(relation),
+      reach_(static_cast<std::size_t>(relation.lags) * relation.stride),
+      before_(relation.inputs.size() * (reach_ + 1)),
       terms_(relation.weights_needed(), 1.0) {}
 
 /// The input as a target with this rate limit follows it, from the present value of the target on.
 double LagLine::followed(double input, const Log& log, int row, double dt) {
-  if (rate_limit_ <= 0.0) return input;
-  const double target = signals_of(log, target_)[joint_][row];
+  if (relation_.rate_limit <= 0.0) return input;
+  const double target = signals_of(log, relation_.target)[relation_.joint][row];
   if (rows_ == 0 || !std::isfinite(followed_)) followed_ = std::isfinite(target) ? target : input;
-  const double most = rate_limit_ * std::min(dt, (kMostBridged + 1) * period_s_);
+  const double most = relation_.rate_limit * std::min(dt, (kMostBridged + 1) * relation_.period_s);
   followed_ += std::clamp(input - followed_, -most, most);
   return followed_;
 }
 
 void LagLine::push(std::size_t input, double value) {
-  const std::size_t reach = static_cast<std::size_t>(lags_) * stride_;
-  double* line = &before_[input * (reach + 1)];
-  std::copy_backward(line, line + reach, line + reach + 1);
+  double* line = &before_[input * (reach_ + 1)];
+  std::copy_backward(line, line + reach_, line + reach_ + 1);
   line[0] = value;
 }
 
 bool LagLine::take(const Log& log, int row) {
   const double dt = log.time[row] - last_s_;
   last_s_ = log.time[row];
-  const bool in_step = dt > 0.0 && dt < kGap * period_s_;
-  const double lost = in_step || !bridges_ ? 0.0 : std::round(dt / period_s_) - 1.0;
+  const bool in_step = dt > 0.0 && dt < kGap * relation_.period_s;
+  const bool bridges = relation_.kind == RelationKind::tracking;
+  const double lost = in_step || !bridges ? 0.0 : std::round(dt / relation_.period_s) - 1.0;
   if (!in_step && !(lost >= 1.0 && lost <= kMostBridged)) rows_ = 0;
   const int bridged = rows_ == 0 ? 0 : static_cast<int>(lost);
-  const std::size_t reach = static_cast<std::size_t>(lags_) * stride_, kept = reach + 1;
-  for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    double value = signals_of(log, inputs_[i])[joint_][row];
+  const std::size_t kept = reach_ + 1;
+  for (std::size_t i = 0; i < relation_.inputs.size(); ++i) {
+    double value = signals_of(log, relation_.inputs[i])[relation_.joint][row];
     if (!std::isfinite(value)) {
       rows_ = 0;
       return false;
@@ -67,12 +61,13 @@ bool LagLine::take(const Log& log, int row) {
     push(i, value);
   }
   rows_ += bridged;
-  if (++rows_ <= static_cast<int>(reach)) return false;
-  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+  if (++rows_ <= static_cast<int>(reach_)) return false;
+  for (std::size_t i = 0; i < relation_.inputs.size(); ++i) {
     const double* line = &before_[i * kept];
-    double* terms = &terms_[i * (lags_ + 1)];
+    double* terms = &terms_[i * (relation_.lags + 1)];
     terms[0] = line[0];
-    for (int l = 0; l < lags_; ++l) terms[l + 1] = line[l * stride_] - line[(l + 1) * stride_];
+    for (int l = 0; l < relation_.lags; ++l)
+      terms[l + 1] = line[l * relation_.stride] - line[(l + 1) * relation_.stride];
   }
   return true;
 }

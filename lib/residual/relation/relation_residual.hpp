@@ -13,6 +13,7 @@ namespace faultline {
 /// The latest rows of a relation's inputs, as the terms that its weights multiply.
 class LagLine {
  public:
+  /// `relation` outlives this.
   explicit LagLine(const SignalRelation& relation);
 
   /// Takes row `row`. Returns false if too few rows precede it without a gap, or an input is missing. For
@@ -25,12 +26,9 @@ class LagLine {
   void push(std::size_t input, double value);
   double followed(double input, const Log& log, int row, double dt);
 
-  std::vector<Quantity> inputs_;
-  Quantity target_;
-  bool bridges_;
-  int joint_, lags_, stride_;
-  double period_s_, rate_limit_;
-  double followed_ = std::numeric_limits<double>::quiet_NaN();  ///< the first input under rate_limit_
+  const SignalRelation& relation_;
+  std::size_t reach_;  ///< rows before the present one that the terms need
+  double followed_ = std::numeric_limits<double>::quiet_NaN();  ///< the first input under the rate limit
   std::vector<double> before_;                                  ///< by input, the latest row first
   std::vector<double> terms_;
   int rows_ = 0;  ///< number of rows since the last gap

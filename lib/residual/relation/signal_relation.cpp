@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/core/enum_named.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/json/json_fields.hpp"
 #include "lib/log/log_channels.hpp"
@@ -93,8 +94,9 @@ const char* to_string(RelationKind kind) {
 }
 
 RelationKind relation_kind_from(const std::string& name, const std::string& where) {
-  for (const RelationKind kind : kRelationKinds)
-    if (name == to_string(kind)) return kind;
+  if (const auto kind =
+          enum_named(name, {RelationKind::actuator, RelationKind::control_law, RelationKind::tracking}))
+    return *kind;
   throw Error(ErrorCode::input, where,
               "has the unknown relation \"" + name + "\"; expected actuator, control_law or tracking");
 }

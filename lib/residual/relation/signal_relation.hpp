@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -21,13 +20,8 @@ enum class RelationKind {
   control_law,  ///< commanded torque by reference and motion
   tracking,     ///< position or velocity by its reference
 };
-inline constexpr std::array kRelationKinds{RelationKind::actuator, RelationKind::control_law,
-                                           RelationKind::tracking};
-
 /// "actuator", "control_law", "tracking".
 const char* to_string(RelationKind kind);
-/// Throws Error(input) when `name` is none of them; `where` names the file.
-RelationKind relation_kind_from(const std::string& name, const std::string& where);
 
 /// The deviation of the mean of a residual over a window in healthy operation.
 struct WindowLimit {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/diagnose/merge_faults.hpp"
+#include "lib/diagnose/verdict.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/diagnose/relation/tracking_findings.hpp"
-
 #include <gtest/gtest.h>
 
+#include "lib/diagnose/relation/relation_findings.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -13,6 +12,23 @@ const Chain& chain() {
   return robot.chain;
 }
 
+/// Sums of a row of these ranges and root mean squares of target, prediction and reference.
+RelationSums sums(double target, double predicted, double reference) {
+  RelationSums out;
+  out.low = out.predicted_low = out.reference_low = 0.0;
+  out.high = target, out.predicted_high = predicted, out.reference_high = reference;
+  out.target_square = target * target;
+  out.predicted_square = predicted * predicted;
+  out.reference_square = reference * reference;
+  out.rows = 1;
+  return out;
+}
+
+void set_share(RelationSums& of, double share, double explains) {
+  of.product = -share * of.predicted_square;
+  of.square = of.product * of.product / (of.predicted_square * explains);
+}
+
 RelationEpisode episode(Quantity target, int joint, double onset_s, double end_s) {
   RelationEpisode out;
   out.kind = RelationKind::tracking;
@@ -20,8 +36,7 @@ RelationEpisode episode(Quantity target, int joint, double onset_s, double end_s
   out.joint = joint - 1;
   out.onset_s = onset_s, out.alarm_s = onset_s + 0.1, out.end_s = end_s;
   out.mean = 0.2;
-  out.first_span = 0.5, out.first_predicted_span = 0.6, out.first_reference_span = 0.6;
-  out.first_rms = 0.5, out.first_predicted_rms = 0.6, out.first_reference_rms = 0.6;
+  out.at_first = sums(0.5, 0.6, 0.6);
   out.times_limit = 3.0;
   return out;
 }
@@ -46,30 +61,30 @@ TEST(TrackingFindings, TwoJointsAreTwoAndLaterOnesStandAlone) {
 
 TEST(TrackingFindings, AJointThatStandsStillIsLockedWhicheverSignalSaysSo) {
   RelationEpisode still = episode(Quantity::dq, 1, 4.2, 7.0);
-  still.first_share = 0.95, still.first_share_explains = 0.9;
+  set_share(still.at_first, 0.95, 0.9);
   const auto faults = tracking_findings({episode(Quantity::q, 1, 4.0, 6.0), still}, chain());
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].label.kind, FaultKind::locked);
   EXPECT_EQ(faults[0].onset_s, 4.0);
   RelationEpisode frozen = episode(Quantity::q, 2, 4.0, 6.0);
-  frozen.first_span = 0.01;
+  frozen.at_first.high = 0.01;
   EXPECT_EQ(tracking_findings({frozen}, chain())[0].label.kind, FaultKind::locked);
 }
 
 TEST(TrackingFindings, AJointStandsStillOnlyWhileItsReferenceMoves) {
   RelationEpisode frozen = episode(Quantity::q, 1, 4.0, 6.0);
-  frozen.first_span = 0.01, frozen.first_reference_span = 0.0;
+  frozen.at_first = sums(0.01, 0.6, 0.0);
   EXPECT_EQ(tracking_findings({frozen}, chain()).at(0).label.kind, FaultKind::unknown);
   RelationEpisode stopped = episode(Quantity::dq, 1, 4.0, 6.0);
-  stopped.first_share = 0.95, stopped.first_share_explains = 0.9, stopped.first_rms = 0.3;
-  stopped.first_reference_rms = 0.0;
+  stopped.at_first = sums(0.3, 0.6, 0.0);
+  set_share(stopped.at_first, 0.95, 0.9);
   EXPECT_EQ(tracking_findings({stopped}, chain()).at(0).label.kind, FaultKind::unknown);
 }
 
 TEST(TrackingFindings, AJointAtRestWhoseReferenceIsAtRestIsNone) {
   RelationEpisode rest = episode(Quantity::dq, 1, 4.0, 6.0);
-  rest.first_share = 1.0, rest.first_share_explains = 1.0, rest.first_rms = 0.001;
-  rest.first_reference_rms = 0.0;
+  rest.at_first = sums(0.001, 0.6, 0.0);
+  set_share(rest.at_first, 1.0, 1.0);
   EXPECT_TRUE(tracking_findings({rest}, chain()).empty());
 }
 

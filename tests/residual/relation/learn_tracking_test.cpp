@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "lib/log/memory_source.hpp"
+#include "lib/residual/relation/learn_relations.hpp"
 #include "lib/residual/relation/relation_detector.hpp"
-#include "lib/residual/relation/relation_fit.hpp"
 #include "tests/residual/relation/stepped_joint.hpp"
 
 namespace faultline {
