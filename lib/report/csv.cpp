@@ -40,19 +40,13 @@ std::string healthy_row(const Diagnosis& d) {
 
 }  // namespace
 
-std::string csv_header() {
-  return "file,fault,joint,onset_s,end_s,alarm_s,confidence,decided_by,mlp_fault,mlp_joint,mlp_confidence,"
-         "rbfn_fault,rbfn_joint,rbfn_confidence,could_also_be,verdict,log_sha256,model_sha256,"
-         "similar_cases\n";
+std::string render_csv(const Diagnosis& diagnosis) {
+  std::string text =
+      "file,fault,joint,onset_s,end_s,alarm_s,confidence,decided_by,mlp_fault,mlp_joint,mlp_confidence,"
+      "rbfn_fault,rbfn_joint,rbfn_confidence,could_also_be,verdict,log_sha256,model_sha256,similar_cases\n";
+  if (diagnosis.verdict == Verdict::healthy && diagnosis.faults.empty()) text += healthy_row(diagnosis);
+  for (const FaultFinding& fault : diagnosis.faults) text += fault_row(diagnosis, fault);
+  return text;
 }
-
-std::string csv_rows(const Diagnosis& diagnosis) {
-  if (diagnosis.verdict == Verdict::healthy && diagnosis.faults.empty()) return healthy_row(diagnosis);
-  std::string rows;
-  for (const FaultFinding& fault : diagnosis.faults) rows += fault_row(diagnosis, fault);
-  return rows;
-}
-
-std::string render_csv(const Diagnosis& diagnosis) { return csv_header() + csv_rows(diagnosis); }
 
 }  // namespace faultline

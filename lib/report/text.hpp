@@ -42,8 +42,6 @@ std::string render_json(const Diagnosis& diagnosis);
 /// row with fault "none" when it is healthy and no row when it is inconclusive. RFC 4180 quoting; NaN is
 /// empty; a number is the shortest text that reads back the same.
 std::string render_csv(const Diagnosis& diagnosis);
-std::string csv_header();
-std::string csv_rows(const Diagnosis& diagnosis);
 
 /// JUnit XML for continuous-integration servers: the log is a suite, each joint a test case that fails with
 /// the faults found on it; faults of no joint fail a case "robot"; an inconclusive log is one skipped case.

@@ -57,7 +57,7 @@ TEST(SameNumbers, InEveryReportForPeople) {
 TEST(SameNumbers, InEveryReportForPrograms) {
   const Diagnosis d = odd_numbers();
   const nlohmann::json fault = nlohmann::json::parse(render_json(d)).at("faults").at(0);
-  const std::string csv = csv_rows(d), junit = render_junit(d);
+  const std::string csv = render_csv(d), junit = render_junit(d);
   const std::map<std::string, double> numbers = {{"onset_s", 3.1411}, {"alarm_s", 3.2718}, {"end_s", 8.1618}};
   for (const auto& [key, value] : numbers) {
     EXPECT_EQ(fault.at(key).get<double>(), value);

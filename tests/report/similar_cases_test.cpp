@@ -62,7 +62,7 @@ TEST(SimilarCases, ProgramsGetOriginAndNumbers) {
   EXPECT_EQ(shown[0].at("unlike")[0].at("unit"), "s");
   EXPECT_EQ(shown[1].at("origin").at("kind"), "simulated");
   EXPECT_TRUE(shown[1].at("origin").at("person").is_null());
-  EXPECT_TRUE(has(csv_rows(d), "31 field 0.71;12 simulated 0.83"));
+  EXPECT_TRUE(has(render_csv(d), "31 field 0.71;12 simulated 0.83"));
 }
 
 TEST(SimilarCases, NothingThatStandsOutIsSaid) {

@@ -37,7 +37,7 @@ std::vector<const BatchRow*> judged_in_order(const std::vector<BatchRow>& rows, 
 template <typename Value>
 PlotSeries curve(const std::string& name, const std::vector<const BatchRow*>& rows, bool sum, Value value) {
   const std::size_t share = (rows.size() + kPoints - 1) / kPoints;
-  PlotSeries series{name, {}, {}, rows.size() <= 60, false};
+  PlotSeries series{name, {}, {}, rows.size() <= 60};
   for (std::size_t begin = 0; begin < rows.size(); begin += share) {
     const std::size_t end = std::min(begin + share, rows.size());
     double all = std::nan("");

@@ -42,7 +42,6 @@ struct PlotSeries {
   std::string name;
   std::vector<double> x, y;
   bool points = false;  ///< marks at the samples besides the line
-  bool stairs = false;  ///< holds each value until the next sample
   int pen = -1;         ///< number of its pen; -1: its place in the panel
   bool line = true;     ///< false: `points` alone
   /// Half the height of an error bar at each sample; empty: none.

@@ -55,10 +55,7 @@ std::string path_of(const PlotSeries& series, const PlotAxis& x, const PlotAxis&
       continue;
     }
     const double px = near_frame(x.px(series.x[i])), py = near_frame(y.px(series.y[i]));
-    if (pen_down && series.stairs)
-      path += fmt::format("H{:.1f}V{:.1f}", px, py);
-    else
-      path += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", px, py);
+    path += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", px, py);
     pen_down = true;
   }
   return path;

@@ -125,7 +125,7 @@ std::string warp_figure(const RunAlignment& alignment) {
   LinePlot plot;
   plot.title = "Time of the second run minus time of the first";
   plot.x_label = "s from the start of the first run";
-  PlotSeries series{"", alignment.first_s, {}, false, false};
+  PlotSeries series{"", alignment.first_s, {}};
   for (std::size_t i = 0; i < alignment.first_s.size(); ++i)
     series.y.push_back(alignment.second_s[i] - alignment.first_s[i]);
   plot.panels = {{"s", {series}}};
