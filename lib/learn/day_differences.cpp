@@ -26,83 +26,18 @@ void take_missed_torque(const BalanceModel& m, int joint, DayDifferences& out) {
   out.missed_memory_s[joint] = std::clamp(memory_s, kLeastMemory_s, kLongestMemory_s);
 }
 
-struct Differences {
-  DayDifferences operator()(const BalanceModel& m) const {
-    const DayLayout at = day_layout(m.rigid);
-    DayDifferences out = DayDifferences::none(m.joints());
-    for (int j = 0; j < m.joints(); ++j) {
-      out.offset[j] = std::sqrt(m.day_variance[at.offset(j)]);
-      out.friction[j] = std::sqrt(m.day_variance[at.friction(j)]);
-      out.viscous_excess[j] = std::sqrt(m.day_variance[at.viscous_excess(j)]);
-      out.gain[j] = std::sqrt(m.day_variance[at.gain(j)]);
-      take_missed_torque(m, j, out);
-    }
-    return out;
-  }
-  DayDifferences operator()(const OneStepModel& m) const {
-    const StepDayLayout at = m.day_layout();
-    DayDifferences out = DayDifferences::none(m.joints());
-    for (int j = 0; j < m.joints(); ++j) {
-      out.offset[j] = std::sqrt(m.day_variance[at.force(j)]);
-      out.friction[j] = std::sqrt(m.day_variance[at.friction(j)]);
-      out.viscous_excess[j] = std::sqrt(m.day_variance[at.viscous_excess(j)]);
-      out.gain[j] = std::sqrt(m.day_variance[at.gain(j)]);
-    }
-    return out;
-  }
-};
+DayLayout day_layout_of(const BalanceModel& m) { return day_layout(m.rigid); }
+StepDayLayout day_layout_of(const OneStepModel& m) { return m.day_layout(); }
 
-double variance_of_range(double range) { return Eigen::numext::abs2(range / DayEffect::kStdsInRange); }
+int offset_at(const DayLayout& at, int joint) { return at.offset(joint); }
+int offset_at(const StepDayLayout& at, int joint) { return at.force(joint); }
 
-struct Widen {
-  const NormalRange& stated;
-  const std::vector<double>& torque_scale;
-
-  void friction(double& variance) const {
-    if (stated.friction != NormalRange{}.friction)
-      variance = std::max(variance, variance_of_range(stated.friction));
-  }
-  void offset(double& variance, int joint) const {
-    if (stated.torque_offset != NormalRange{}.torque_offset)
-      variance = std::max(variance, variance_of_range(stated.torque_offset * torque_scale[joint]));
-  }
-  void gain(double& variance) const {
-    if (stated.torque_constant != NormalRange{}.torque_constant)
-      variance = std::max(variance, variance_of_range(stated.torque_constant));
-  }
-  void operator()(BalanceModel& m) const {
-    if (stated.work_piece_kg > 0.0) m.piece_kg = stated.work_piece_kg;
-    const DayLayout at = day_layout(m.rigid);
-    for (int j = 0; j < m.joints(); ++j) {
-      friction(m.day_variance[at.friction(j)]);
-      friction(m.day_variance[at.friction_slope(j)]);
-      friction(m.day_variance[at.viscous_excess(j)]);
-      offset(m.day_variance[at.offset(j)], j);
-      gain(m.day_variance[at.gain(j)]);
-    }
-  }
-  void operator()(OneStepModel& m) const {
-    const StepDayLayout at = m.day_layout();
-    for (int j = 0; j < m.joints(); ++j) {
-      friction(m.day_variance[at.friction(j)]);
-      friction(m.day_variance[at.viscous_excess(j)]);
-      offset(m.day_variance[at.force(j)], j);
-      gain(m.day_variance[at.gain(j)]);
-    }
-  }
-};
-
-}  // namespace
-
-DayDifferences day_differences(const RobotRows& robot) { return std::visit(Differences{}, robot); }
-
-RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
-                             const std::vector<double>& torque_scale) {
-  std::visit(Widen{stated, torque_scale}, robot);
-  return robot;
+/// Raises a variance to that of a range that the robot file states, scaled; `usual` is the default, which
+/// changes nothing.
+void widen(double range, double usual, double scale, double& variance) {
+  if (range == usual) return;
+  variance = std::max(variance, Eigen::numext::abs2(range * scale / DayEffect::kStdsInRange));
 }
-
-namespace {
 
 /// Returns the identification with the friction of the model that explains the logs.
 template <typename Rows>
@@ -148,10 +83,6 @@ Identification with_noise_of(Identification identification, const OneStepModel& 
   return identification;
 }
 
-}  // namespace
-
-namespace {
-
 Error predictions_diverge(double period_s) {
   constexpr auto kMessage =
       "no robot predicts their motion over one sample period of {:.3g} s. State how the torque acts between "
@@ -160,6 +91,45 @@ Error predictions_diverge(double period_s) {
 }
 
 }  // namespace
+
+DayDifferences day_differences(const RobotRows& robot) {
+  const auto differences = [](const auto& m) {
+    const auto at = day_layout_of(m);
+    DayDifferences out = DayDifferences::none(m.joints());
+    for (int j = 0; j < m.joints(); ++j) {
+      out.offset[j] = std::sqrt(m.day_variance[offset_at(at, j)]);
+      out.friction[j] = std::sqrt(m.day_variance[at.friction(j)]);
+      out.viscous_excess[j] = std::sqrt(m.day_variance[at.viscous_excess(j)]);
+      out.gain[j] = std::sqrt(m.day_variance[at.gain(j)]);
+    }
+    return out;
+  };
+  DayDifferences out = std::visit(differences, robot);
+  if (const auto* rows = std::get_if<BalanceModel>(&robot))
+    for (int j = 0; j < rows->joints(); ++j) take_missed_torque(*rows, j, out);
+  return out;
+}
+
+RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
+                             const std::vector<double>& torque_scale) {
+  const NormalRange usual;
+  const auto widen_days = [&](auto& m) {
+    const auto at = day_layout_of(m);
+    for (int j = 0; j < m.joints(); ++j) {
+      widen(stated.friction, usual.friction, 1.0, m.day_variance[at.friction(j)]);
+      widen(stated.friction, usual.friction, 1.0, m.day_variance[at.viscous_excess(j)]);
+      widen(stated.torque_offset, usual.torque_offset, torque_scale[j], m.day_variance[offset_at(at, j)]);
+      widen(stated.torque_constant, usual.torque_constant, 1.0, m.day_variance[at.gain(j)]);
+    }
+  };
+  std::visit(widen_days, robot);
+  if (auto* rows = std::get_if<BalanceModel>(&robot)) {
+    if (stated.work_piece_kg > 0.0) rows->piece_kg = stated.work_piece_kg;
+    for (int j = 0; j < rows->joints(); ++j)
+      widen(stated.friction, usual.friction, 1.0, rows->day_variance[day_layout_of(*rows).friction_slope(j)]);
+  }
+  return robot;
+}
 
 Identification with_explained_robot(const Identification& identification, const RobotRows& robot) {
   if (const auto* rows = std::get_if<BalanceModel>(&robot))

@@ -10,8 +10,6 @@
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/fit_coarse_days.hpp"
-#include "lib/identify/days/fit_days.hpp"
-#include "lib/learn/without_work_piece.hpp"
 #include "lib/log/memory_source.hpp"
 
 namespace faultline {
@@ -20,6 +18,9 @@ namespace {
 constexpr double kFirst = 0.4;  // share of the work that is done after the first identification
 constexpr double kFitted = 0.6, kSecond = 0.8;  // the same before and after a second identification
 constexpr int kDaysOfOneLog = 3;                // pieces of a single log that count as days
+constexpr double kFewestOfAll = 0.15;       // share of the rows: with less, the robot is identified from all
+constexpr std::int64_t kFewestRows = 1000;  // rows of all logs together: fewer do not identify a robot
+constexpr double kSpare_s = 0.05;           // margin between a change of the level and the rows used
 
 /// Returns the part of the identification that a model keeps to document its quality.
 Identification without_state(Identification identification) {
@@ -47,6 +48,26 @@ Model identified_model(const Identification& identification) {
   model.sample_period_s = identified_period_s(identification);
   model.has_velocity = !identification.dq_noise.empty();
   return model;
+}
+
+TorqueConversion reading_of(const Robot& opened_with, const Robot& robot) {
+  TorqueConversion out{robot.torque_delay_s, robot.torque_gain};
+  out.delay_s.resize(robot.joints(), 0.0);
+  out.gain.resize(robot.joints(), 1.0);
+  for (std::size_t j = 0; j < opened_with.torque_delay_s.size(); ++j)
+    out.delay_s[j] -= opened_with.torque_delay_s[j];
+  for (std::size_t j = 0; j < opened_with.torque_gain.size(); ++j) out.gain[j] /= opened_with.torque_gain[j];
+  return out;
+}
+
+/// Returns the logs that were not left out, with delay and gain of torques compensated; `logs` outlive them.
+std::deque<DelayedTorqueSource> compensated_logs(std::span<LogSource* const> logs,
+                                                 const TorqueConversion& reading,
+                                                 const std::vector<IdentifiedLog>& identified) {
+  std::deque<DelayedTorqueSource> out;
+  for (std::size_t i = 0; i < logs.size(); ++i)
+    if (!identified[i].left_out) out.push_back(reading.of(*logs[i]));
+  return out;
 }
 
 /// Makes model and logs of `identification`; the logs are those that were not left out of `given`.
@@ -105,6 +126,51 @@ void take_rows(HealthyRobot& robot, FittedDays fit) {
   for (BalanceModel& model : fit.without) robot.without.emplace_back(std::move(model));
 }
 
+/// A time range without a work piece.
+struct EmptyTimes {
+  double begin_s = 0.0, end_s = 0.0;
+};
+
+std::vector<EmptyTimes> empty_times(const PieceTimes& piece) {
+  std::vector<EmptyTimes> out;
+  const auto rows = static_cast<int>(piece.path.size());
+  for (int k = 0; k < rows; ++k) {
+    if (piece.path[k] != 0) continue;
+    const int first = k;
+    while (k + 1 < rows && piece.path[k + 1] == 0) ++k;
+    out.push_back({piece.time_s[first] + (first > 0 ? kSpare_s : -kSpare_s),
+                   piece.time_s[k] + (k + 1 < rows ? -kSpare_s : kSpare_s)});
+  }
+  return out;
+}
+
+/// The number of rows of a log, and its rows without a work piece.
+struct EmptyRows {
+  std::int64_t all = 0;
+  std::vector<RowRange> empty;
+};
+
+EmptyRows rows_within(LogSource& log, const std::vector<EmptyTimes>& times) {
+  EmptyRows out;
+  std::size_t next = 0;
+  bool is_open = false;
+  log.rewind();
+  for (Log segment; log.next(segment);)
+    for (int k = 0; k < segment.rows(); ++k, ++out.all) {
+      const double t = segment.time[k];
+      while (next < times.size() && t > times[next].end_s) {
+        ++next;
+        is_open = false;
+      }
+      const bool is_empty = next < times.size() && t >= times[next].begin_s;
+      if (!is_empty) continue;
+      if (!is_open) out.empty.push_back({out.all, out.all});
+      is_open = true;
+      out.empty.back().end = out.all + 1;
+    }
+  return out;
+}
+
 /// Returns the kept logs, restricted to their rows_without_work_piece(); none if there are no such rows.
 std::deque<SelectedRowsSource> without_work_piece(std::span<LogSource* const> logs, HealthyRobot& robot,
                                                   const FittedDays& fit) {
@@ -147,29 +213,20 @@ void set_days(HealthyRobot& robot) {
 
 }  // namespace
 
-TorqueConversion reading_of(const Robot& opened_with, const Robot& robot) {
-  TorqueConversion out{robot.torque_delay_s, robot.torque_gain};
-  out.delay_s.resize(robot.joints(), 0.0);
-  out.gain.resize(robot.joints(), 1.0);
-  for (std::size_t j = 0; j < opened_with.torque_delay_s.size(); ++j)
-    out.delay_s[j] -= opened_with.torque_delay_s[j];
-  for (std::size_t j = 0; j < opened_with.torque_gain.size(); ++j) out.gain[j] /= opened_with.torque_gain[j];
-  return out;
-}
-
-std::deque<DelayedTorqueSource> compensated_logs(std::span<LogSource* const> logs,
-                                                 const TorqueConversion& reading,
-                                                 const std::vector<IdentifiedLog>& identified) {
-  std::deque<DelayedTorqueSource> out;
-  for (std::size_t i = 0; i < logs.size(); ++i)
-    if (!identified[i].left_out) out.push_back(reading.of(*logs[i]));
-  return out;
-}
-
-std::vector<LogSource*> pointers(std::deque<DelayedTorqueSource>& logs) {
-  std::vector<LogSource*> out;
-  for (DelayedTorqueSource& log : logs) out.push_back(&log);
-  return out;
+std::vector<std::vector<RowRange>> rows_without_work_piece(std::span<LogSource* const> logs,
+                                                           const FittedDays& days) {
+  if (!(days.model.piece_kg > 0.0)) return {};
+  std::vector<std::vector<RowRange>> out;
+  std::int64_t all = 0, without_piece = 0;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    EmptyRows rows = rows_within(*logs[i], empty_times(days.pieces[i]));
+    all += rows.all;
+    for (const RowRange& range : rows.empty) without_piece += range.end - range.begin;
+    out.push_back(std::move(rows.empty));
+  }
+  const bool enough = without_piece >= kFewestRows &&
+                      static_cast<double>(without_piece) >= kFewestOfAll * static_cast<double>(all);
+  return enough ? out : std::vector<std::vector<RowRange>>{};
 }
 
 RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
@@ -200,9 +257,7 @@ HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
     return first;
   }
   if (!empty.empty()) {
-    std::vector<LogSource*> sources;
-    for (SelectedRowsSource& log : empty) sources.push_back(&log);
-    identification = identify(sources, robot, options, part_of(progress, kFitted, kSecond));
+    identification = identify(pointers(empty), robot, options, part_of(progress, kFitted, kSecond));
     identification.issues.add(work_piece_issue(fit.model.piece_kg));
   }
   if (progress) progress("learning what differs from day to day", kSecond);

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "lib/core/progress.hpp"
+#include "lib/identify/days/fit_days.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/log/transformed/delayed_torque_source.hpp"
+#include "lib/log/transformed/selected_rows_source.hpp"
 #include "lib/model/model.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -23,14 +25,12 @@ struct TorqueConversion {
   DelayedTorqueSource of(LogSource& log) const { return {log, delay_s, gain}; }
 };
 
-TorqueConversion reading_of(const Robot& opened_with, const Robot& robot);
-
-/// Returns the logs that were not left out, with delay and gain of torques compensated; `logs` outlive them.
-std::deque<DelayedTorqueSource> compensated_logs(std::span<LogSource* const> logs,
-                                                 const TorqueConversion& reading,
-                                                 const std::vector<IdentifiedLog>& identified);
-
-std::vector<LogSource*> pointers(std::deque<DelayedTorqueSource>& logs);
+template <typename Source>
+std::vector<LogSource*> pointers(std::deque<Source>& logs) {
+  std::vector<LogSource*> out;
+  for (Source& log : logs) out.push_back(&log);
+  return out;
+}
 
 /// A robot learned from its healthy logs, before limits and faults are.
 struct HealthyRobot {
@@ -49,6 +49,12 @@ struct HealthyRobot {
 /// they do not suffice.
 HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
                            const IdentifyOptions& options, const Progress& progress);
+
+/// Returns by log the rows without a work piece, since one that is carried half of the time shifts masses and
+/// friction of a robot identified from all rows. Empty if these rows are too few for an identification, or no
+/// work piece comes and goes. `logs` are those that `days` were fitted to. Rewinds them.
+std::vector<std::vector<RowRange>> rows_without_work_piece(std::span<LogSource* const> logs,
+                                                           const FittedDays& days);
 
 /// Learns the rows from some of the robot's days.
 RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days);

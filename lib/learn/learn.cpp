@@ -17,7 +17,6 @@
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/learn/consistent_robot.hpp"
 #include "lib/learn/day_differences.hpp"
-#include "lib/learn/detectability.hpp"
 #include "lib/learn/model_caveats.hpp"
 #include "lib/learn/tracking_model.hpp"
 #include "lib/learn/training_episodes.hpp"
@@ -85,20 +84,6 @@ SampleMode learn_sample_mode(const Model& model, std::vector<LabelledResiduals> 
   return mode;
 }
 
-/// The logs with an empty row for each that was lost, as diagnose() reads them.
-class FilledLogs {
- public:
-  explicit FilledLogs(std::span<LogSource* const> logs) {
-    for (LogSource* log : logs) sources_.push_back(&filled_.emplace_back(*log));
-  }
-
-  std::span<LogSource* const> sources() const { return sources_; }
-
- private:
-  std::deque<EmptyRowsSource> filled_;
-  std::vector<LogSource*> sources_;
-};
-
 std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
                                     std::span<const LabelledLog> labelled) {
   std::vector<ModelSource> sources;
@@ -114,10 +99,6 @@ std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
 /// Nats that are added to the usual limits for this rate of false alarms: a log-likelihood ratio exceeds t by
 /// chance with a probability of at most exp(-t) (Wald, 1945), so x nats more divide that rate by exp(x).
 double limit_shift(double alarms_per_hour) { return elementary::log(kUsualAlarmsPerHour / alarms_per_hour); }
-
-void report_progress(const Progress& progress, const char* what, double share) {
-  if (progress) progress(what, share);
-}
 
 std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const TorqueConversion& reading,
                                     const Model& model) {
@@ -179,11 +160,11 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
 
   const auto training_runs = [&](std::uint64_t stream) {
     return runs_of(faults(options.runs_per_label), stream, part_of(progress, kResidualsLearned, kSimulated),
-                   {.judging = TwinJudging::known, .keep_residuals = true});
+                   {.at_known_times = true, .keep_residuals = true});
   };
   TwinStudy faulty = training_runs(kTrainingSeeds);
   if (share_found(faulty) < kEnoughFound) faulty = joined(std::move(faulty), training_runs(kMoreSeeds));
-  report_progress(progress, "training networks on samples", kSimulated);
+  if (progress) progress("training networks on samples", kSimulated);
   std::vector<LabelledResiduals> residuals = std::move(faulty.residuals);
   residuals.insert(residuals.end(), healthy.residuals.begin(), healthy.residuals.end());
   model.samples = learn_sample_mode(model, std::move(residuals));
@@ -191,7 +172,7 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   const std::size_t simulated = runs.size();
   for (MonitoredRun& run : monitored(labelled, reading, model)) runs.push_back(std::move(run));
 
-  report_progress(progress, "training networks on episodes", kSimulated);
+  if (progress) progress("training networks on episodes", kSimulated);
   const TrainingEpisodes training = training_episodes(runs, model);
   EpisodeClassifierOptions classifying;
   classifying.seed = options.seed;
@@ -215,7 +196,7 @@ Learned learn_tracking_alone(std::span<LogSource* const> healthy, std::span<cons
     throw Error(ErrorCode::input, labelled.front().log->identity().path,
                 "is labelled with a fault, but the healthy logs have no torque: a model without torque "
                 "learns healthy motion only; leave labelled logs out");
-  report_progress(progress, "learning how joints follow their references", 0.0);
+  if (progress) progress("learning how joints follow their references", 0.0);
   Learned out;
   out.model = tracking_model(healthy, robot, alarms_per_hour);
   bind_cases(out.model, out.cases);
@@ -244,18 +225,20 @@ void LearnOptions::check() const {
 Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled, const Robot& robot,
               const LearnOptions& options, const Progress& progress) {
   options.check();
-  FilledLogs filled(healthy);
-  RememberedLogs logs(filled.sources());
+  std::deque<EmptyRowsSource> filled;  // an empty row for each that was lost, as diagnose() reads them
+  for (LogSource* log : healthy) filled.emplace_back(*log);
+  const std::vector<LogSource*> filled_logs = pointers(filled);
+  RememberedLogs logs(filled_logs);
   ModelCaveats doubts{implausible_units(logs.sources(), robot), {}, {}};
   if (!options.keep_doubtful) refuse_grave(doubts);
   if (lack_torque(logs.sources()))
     return learn_tracking_alone(logs.sources(), labelled, robot, options.alarms_per_hour, progress);
-  ConsistentRobot trusted = consistent_robot(logs.sources(), robot,
-                                             {.identify = options.identify,
-                                              .limit_shift = limit_shift(options.alarms_per_hour),
-                                              .threads = options.threads},
-                                             part_of(progress, 0.0, kIdentified));
-  HealthyRobot& found = trusted.explained.robot;
+  ExplainedRobot trusted = consistent_robot(logs.sources(), robot,
+                                            {.identify = options.identify,
+                                             .limit_shift = limit_shift(options.alarms_per_hour),
+                                             .threads = options.threads},
+                                            part_of(progress, 0.0, kIdentified));
+  HealthyRobot& found = trusted.robot;
   doubts.add(caveats_of(found.identification));
   doubts.add({{}, trusted.doubts, {}});
   if (!options.keep_doubtful) refuse_grave(doubts);
@@ -269,7 +252,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                part_of(progress, kIdentified, kResidualsLearned));
   model.residual = out.residual.generator;
   model.has_velocity = !model.residual.shape.derive_velocity;
-  learn_from_twin(out, labelled, found.reading, trusted.explained.logs, options, progress);
+  learn_from_twin(out, labelled, found.reading, trusted.logs, options, progress);
   model.relations =
       learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
                                .period_s = model.sample_period_s,

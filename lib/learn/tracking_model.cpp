@@ -6,25 +6,19 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/log/columns/joint_count.hpp"
+#include "lib/diagnose/monitor/log_tally.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/residual/relation/learn_relations.hpp"
 
 namespace faultline {
 namespace {
 
-void check_joints(const Log& segment, const LogSource& log, const Robot& robot) {
-  if (segment.joints() == robot.joints()) return;
-  throw Error(ErrorCode::input, log.identity().path,
-              joint_count_sentence(log.issues(), segment.joints(), "the robot file", robot.joints()));
-}
-
 /// Reads the whole log and returns its usual sample period, s; sets model.has_velocity.
 double period_of(LogSource& log, const Robot& robot, Model& model) {
   QualityState state;
   log.rewind();
   for (Log segment; log.next(segment);) {
-    check_joints(segment, log, robot);
+    check_joints(segment, log, "the robot file", robot.joints());
     model.has_velocity = model.has_velocity && !segment.dq.empty();
     assess(segment, state);
   }

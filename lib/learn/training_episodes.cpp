@@ -26,10 +26,17 @@ std::array<EpisodeClassifier, 2> trained_on_halves(const std::vector<LabelledEpi
   return half;
 }
 
-CaseSource source_of(const MonitoredRun& run) {
-  if (run.origin == kSimulatedOrigin) return {run.origin, "", "", std::numeric_limits<double>::quiet_NaN()};
-  return {run.origin, run.log.log.sha256, std::filesystem::path(run.log.log.path).filename().string(),
-          run.onset_s};
+Case case_of(const MonitoredRun& run, const Episode& episode) {
+  Case c;
+  c.episode = episode;
+  c.decision = c.label = run.label;
+  c.outcome = CaseOutcome::confirmed;
+  c.origin = run.origin;
+  if (run.origin == kSimulatedOrigin) return c;
+  c.log_sha256 = run.log.log.sha256;
+  c.log_name = std::filesystem::path(run.log.log.path).filename().string();
+  c.onset_s = run.onset_s;
+  return c;
 }
 
 /// Throws Error(input) unless each half of the episodes has two labels, as every classifier needs.
@@ -61,8 +68,7 @@ TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Mod
     if (!of_fault) continue;
     const Episode episode = describe_episode(*of_fault, model).episode;
     out.episodes.push_back({episode.features, run.label});
-    out.evidence.push_back(episode.evidence);
-    out.sources.push_back(source_of(run));
+    out.cases.push_back(case_of(run, episode));
   }
   check_kinds(out.episodes, runs.size());
   return out;
@@ -73,15 +79,10 @@ CaseBase fill_case_base(const TrainingEpisodes& training, const Model& model,
   CaseBase cases(episode_feature_names(model.labels, model.robot.joints()));
   const std::array<EpisodeClassifier, 2> half = trained_on_halves(training.episodes, options);
   for (std::size_t i = 0; i < training.episodes.size(); ++i) {
-    Case c;
-    const Opinions opinions = classify_episode(half[i % 2], training.episodes[i].features);
-    c.episode = {training.episodes[i].features, opinions.mlp, opinions.rbfn, training.evidence[i]};
-    c.decision = c.label = training.episodes[i].label;
-    c.outcome = CaseOutcome::confirmed;
-    c.origin = training.sources[i].origin;
-    c.log_sha256 = training.sources[i].log_sha256;
-    c.log_name = training.sources[i].log_name;
-    c.onset_s = training.sources[i].onset_s;
+    Case c = training.cases[i];
+    const Opinions opinions = classify_episode(half[i % 2], c.episode.features);
+    c.episode.mlp = opinions.mlp;
+    c.episode.rbfn = opinions.rbfn;
     cases.retain(std::move(c));
   }
   cases.learn();

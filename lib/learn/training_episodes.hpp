@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "lib/cases/case_base.hpp"
@@ -12,26 +10,17 @@
 
 namespace faultline {
 
-/// The origin of a case.
-struct CaseSource {
-  std::string origin;
-  std::string log_sha256;  ///< empty without a file
-  std::string log_name;    ///< without folders; empty without a file
-  double onset_s = std::numeric_limits<double>::quiet_NaN();
-};
-
 /// The episodes that the networks and the case base learn from: of each run the one that belongs to its
 /// fault, with its label and origin.
 struct TrainingEpisodes {
   std::vector<LabelledEpisode> episodes;
-  std::vector<double> evidence;     ///< log likelihood ratio of the best hypothesis, one an episode
-  std::vector<CaseSource> sources;  ///< as a case stores them
+  std::vector<Case> cases;  ///< one an episode, without the opinions of the networks
 };
 
 TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Model& model);
 
-/// Makes a case of each episode. Its opinions come from networks that were trained on the other half of the
-/// episodes, so that they are as accurate as in use, not better.
+/// Gives the case of each episode its opinions. They come from networks that were trained on the other half
+/// of the episodes, so that they are as accurate as in use, not better.
 CaseBase fill_case_base(const TrainingEpisodes& training, const Model& model,
                         const EpisodeClassifierOptions& options);
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 
@@ -21,6 +23,7 @@ namespace {
 constexpr double kSecondsPerHour = 3600.0;
 constexpr int kFewestRunRows = 2;  // of a simulated log, that can be diagnosed
 constexpr int kRowsAtATime = 64;   // rows of a segment of a simulated log
+constexpr double kSurely = 0.9;    // share of the logs in which a size must be found
 
 bool alarmed_early(const MonitoredRun& run) {
   return std::any_of(run.log.episodes.begin(), run.log.episodes.end(),
@@ -64,6 +67,38 @@ Error runs_diverge(double period_s) {
   return {ErrorCode::input, "the healthy logs", fmt::format(kMessage, period_s)};
 }
 
+/// Smallest size of a label that is found in nine of ten logs; NaN if there is none.
+double detectable_size(const FaultLabel& label, const std::vector<std::vector<LeastFound>>& by_log) {
+  std::vector<double> sizes;
+  for (const std::vector<LeastFound>& log : by_log)
+    for (const LeastFound& each : log)
+      if (each.label == label) sizes.push_back(each.size);
+  const double size = upper_quantile(std::move(sizes), kSurely);
+  return std::isfinite(size) ? size : std::numeric_limits<double>::quiet_NaN();
+}
+
+Detectability detectability_of(const FaultLabel& label, std::span<const MonitoredRun> runs,
+                               const std::vector<std::vector<LeastFound>>& by_log) {
+  Detectability reach{.label = label};
+  std::vector<double> sizes;
+  std::vector<double> delays;
+  for (const MonitoredRun& run : runs) {
+    if (run.label != label) continue;
+    const MonitoredEpisode* episode = episode_of_fault(run);
+    ++reach.runs;
+    if (episode) {
+      ++reach.found;
+      delays.push_back(episode->alarm_s() - run.onset_s);
+    }
+    if (std::isfinite(run.size)) sizes.push_back(std::abs(run.size));
+  }
+  reach.median_delay_s = lower_quantile(delays, 0.5);
+  if (sizes.empty()) return reach;
+  reach.size = detectable_size(label, by_log);
+  reach.least_size = *std::min_element(sizes.begin(), sizes.end());
+  return reach;
+}
+
 }  // namespace
 
 Model with_rigid_gears(Model model) {
@@ -93,8 +128,8 @@ TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::v
     out.size = size_of(run);
     if (options.keep_residuals) study.residuals[i] = labelled_residuals(run, model.residual);
     MemorySource source(std::move(run.log), "simulated", kRowsAtATime);
-    out.log = options.judging == TwinJudging::known ? monitor_at(source, rigid, run.onset_s, run.end_s)
-                                                    : monitor(source, rigid);
+    out.log =
+        options.at_known_times ? monitor_at(source, rigid, run.onset_s, run.end_s) : monitor(source, rigid);
     const std::lock_guard lock(reporting);
     if (progress)
       progress("simulating faults", static_cast<double>(++done) / static_cast<double>(labels.size()));
@@ -148,6 +183,17 @@ Validated validate(std::span<const MonitoredRun> faulty, std::span<const Monitor
   validation.raw_confidence_error = calibration_error(out.judged);
   validation.confidence_error = held_out_calibration_error(out.judged);
   return out;
+}
+
+std::vector<Detectability> detectability_of(std::span<const MonitoredRun> runs,
+                                            const std::vector<std::vector<LeastFound>>& by_log) {
+  std::vector<Detectability> all;
+  for (const MonitoredRun& run : runs) {
+    const bool known =
+        std::any_of(all.begin(), all.end(), [&](const Detectability& r) { return r.label == run.label; });
+    if (!known && run.label.kind != FaultKind::none) all.push_back(detectability_of(run.label, runs, by_log));
+  }
+  return all;
 }
 
 }  // namespace faultline

@@ -10,6 +10,7 @@
 #include "lib/classify/sample_classifier.hpp"
 #include "lib/core/progress.hpp"
 #include "lib/diagnose/monitor/monitored_log.hpp"
+#include "lib/explain/least_found.hpp"
 #include "lib/learn/twin/twin.hpp"
 #include "lib/model/model.hpp"
 
@@ -25,18 +26,14 @@ struct MonitoredRun {
   double size = std::numeric_limits<double>::quiet_NaN();  ///< of the fault, of a collision its impulse
 };
 
-/// How a run of the twin is judged.
-enum class TwinJudging {
-  searched,  ///< as a recorded log is
-  known,     ///< at the known times of its fault (monitor_at()): a tenth of the computing time
-};
-
 /// Returns the model without gear springs: the twin has rigid gears, and springs of the model that its runs
 /// do not have would be evidence of faults.
 Model with_rigid_gears(Model model);
 
 struct TwinStudyOptions {
-  TwinJudging judging = TwinJudging::searched;
+  /// Judge each run at the known times of its fault (monitor_at()), in a tenth of the computing time; else as
+  /// a recorded log.
+  bool at_known_times = false;
   bool keep_residuals = false;   ///< of each run, for learn_sample_mode()
   std::uint64_t first_seed = 0;  ///< run i has the seed stream `first_seed + i`
   int threads = 0;               ///< 0 = one a core; changes no byte of the result
@@ -68,5 +65,11 @@ struct Validated {
 /// Validates the pipeline on runs that it was not trained on.
 Validated validate(std::span<const MonitoredRun> faulty, std::span<const MonitoredRun> healthy,
                    const Model& model, const CaseBase& cases);
+
+/// Returns the reach of each label, in the order of the runs: the smallest size that is found in nine of ten
+/// healthy logs (`by_log`: least_found() of each), and number and median delay of the simulated runs that
+/// were found. An alarm before the onset does not count.
+std::vector<Detectability> detectability_of(std::span<const MonitoredRun> runs,
+                                            const std::vector<std::vector<LeastFound>>& by_log);
 
 }  // namespace faultline

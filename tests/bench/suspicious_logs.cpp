@@ -25,10 +25,10 @@ void judge(const std::string& robot_file, const std::vector<std::string>& paths)
   for (const std::string& path : paths)
     sources.push_back(owners.emplace_back(open_robot_log(path, robot)).get());
   RememberedLogs logs(sources);
-  const ConsistentRobot trusted = consistent_robot(logs.sources(), robot, {});
-  ModelCaveats doubts = caveats_of(trusted.explained.robot.identification);
+  const ExplainedRobot trusted = consistent_robot(logs.sources(), robot, {});
+  ModelCaveats doubts = caveats_of(trusted.robot.identification);
   doubts.add({{}, trusted.doubts, {}});
-  for (const IdentifiedLog& log : trusted.explained.robot.given)
+  for (const IdentifiedLog& log : trusted.robot.given)
     fmt::print("{},{}\n", name_of(log.path), log.left_out ? "left out" : "used");
   if (doubts.is_grave()) fmt::print("refused\n");
   for (const std::string& doubt : listed(doubts)) fmt::print("doubt: {}\n", doubt);

@@ -40,8 +40,8 @@ TEST(ConsistentRobot, ALogWithAFaultAmongHealthyOnesIsNamedAndLeftOut) {
   given.add("a.csv", {});
   given.add("weak.csv", {weak_drive()});
   given.add("c.csv", {});
-  const ConsistentRobot trusted = consistent_robot(given.sources, unknown_small_robot(), {});
-  const HealthyRobot& robot = trusted.explained.robot;
+  const ExplainedRobot trusted = consistent_robot(given.sources, unknown_small_robot(), {});
+  const HealthyRobot& robot = trusted.robot;
   ASSERT_EQ(robot.given.size(), 3u);
   EXPECT_FALSE(robot.given[0].left_out);
   EXPECT_TRUE(robot.given[1].left_out);
@@ -60,8 +60,8 @@ TEST(ConsistentRobot, AtACoarseRateALogThatNoOtherLeadsThroughIsLeftOut) {
   std::vector<LogSource*> sources;
   for (const char* name : {"healthy_1.csv", "healthy_2.csv", "free_swinging_2.csv"})
     sources.push_back(logs.emplace_back(open_log(folder + name)).get());
-  const ConsistentRobot trusted = consistent_robot(sources, load_robot_file(folder + "robot.toml"), {});
-  const std::vector<IdentifiedLog>& given = trusted.explained.robot.given;
+  const ExplainedRobot trusted = consistent_robot(sources, load_robot_file(folder + "robot.toml"), {});
+  const std::vector<IdentifiedLog>& given = trusted.robot.given;
   ASSERT_EQ(given.size(), 3u);
   EXPECT_FALSE(given[0].left_out);
   EXPECT_FALSE(given[1].left_out);
@@ -71,8 +71,8 @@ TEST(ConsistentRobot, AtACoarseRateALogThatNoOtherLeadsThroughIsLeftOut) {
 TEST(ConsistentRobot, HealthyLogsAreAllKept) {
   Given given;
   for (const char* name : {"a.csv", "b.csv", "c.csv", "d.csv"}) given.add(name, {});
-  const ConsistentRobot trusted = consistent_robot(given.sources, unknown_small_robot(), {});
-  for (const IdentifiedLog& log : trusted.explained.robot.given) EXPECT_FALSE(log.left_out) << log.path;
+  const ExplainedRobot trusted = consistent_robot(given.sources, unknown_small_robot(), {});
+  for (const IdentifiedLog& log : trusted.robot.given) EXPECT_FALSE(log.left_out) << log.path;
   EXPECT_TRUE(trusted.doubts.empty());
 }
 
@@ -80,8 +80,8 @@ TEST(ConsistentRobot, TwoLogsThatContradictEachOtherAreKeptWithADoubt) {
   Given given;
   given.add("a.csv", {});
   given.add("weak.csv", {weak_drive()});
-  const ConsistentRobot trusted = consistent_robot(given.sources, unknown_small_robot(), {});
-  for (const IdentifiedLog& log : trusted.explained.robot.given) EXPECT_FALSE(log.left_out) << log.path;
+  const ExplainedRobot trusted = consistent_robot(given.sources, unknown_small_robot(), {});
+  for (const IdentifiedLog& log : trusted.robot.given) EXPECT_FALSE(log.left_out) << log.path;
   ASSERT_EQ(trusted.doubts.size(), 1u);
   EXPECT_NE(trusted.doubts[0].find(".csv"), std::string::npos) << trusted.doubts[0];
 }
@@ -93,8 +93,8 @@ TEST(ConsistentRobot, AskedToKeepAllLogsItDoubtsInsteadOfLeavingOut) {
   given.add("weak.csv", {weak_drive()});
   ExplainedRobotOptions options;
   options.identify.keep_all = true;
-  const ConsistentRobot trusted = consistent_robot(given.sources, unknown_small_robot(), options);
-  EXPECT_EQ(trusted.explained.robot.logs.size(), 3u);
+  const ExplainedRobot trusted = consistent_robot(given.sources, unknown_small_robot(), options);
+  EXPECT_EQ(trusted.robot.logs.size(), 3u);
   EXPECT_EQ(trusted.doubts.size(), 1u);
 }
 

@@ -6,8 +6,7 @@
 #include <numeric>
 
 #include "lib/identify/days/fit_days.hpp"
-#include "lib/learn/explained_robot.hpp"
-#include "lib/learn/without_work_piece.hpp"
+#include "lib/learn/consistent_robot.hpp"
 #include "tests/learn/small_robot.hpp"
 #include "tests/support/rrp_runs.hpp"
 
