@@ -74,15 +74,11 @@ void ExplainMonitor::take(const Log& segment, Residuals residuals, const std::ve
     const bool is_gap =
         is_new_run || t - last.t() > kLongestGap_s || is_break(last, now, model_.sample_period_s);
     if (!is_gap && t - first_s < model_.explain.window_s) continue;
-    take_rows(segment, begin, k);
+    if (begin < k) append(window_, slice(segment, begin, k));
     explain_window(!is_gap);
     begin = k;
   }
-  take_rows(segment, begin, segment.rows());
-}
-
-void ExplainMonitor::take_rows(const Log& segment, int begin, int end) {
-  if (begin < end) append(window_, slice(segment, begin, end));
+  if (begin < segment.rows()) append(window_, slice(segment, begin, segment.rows()));
 }
 
 void ExplainMonitor::finish() { explain_window(false); }

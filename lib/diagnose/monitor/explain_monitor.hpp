@@ -45,7 +45,6 @@ class ExplainMonitor {
   const std::vector<double>& loudness() const { return noise_level_; }
 
  private:
-  void take_rows(const Log& segment, int begin, int end);
   void explain_window(bool is_followed);
   ExplainedLog explained_window() const;
   SignalStretches signals_of_window() const;
