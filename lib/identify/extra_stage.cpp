@@ -25,8 +25,8 @@ constexpr double kSlow_s = 0.02;      // samples farther apart show no spring
 /// Marks moving joints with significant unexplained torque.
 std::vector<bool> unexplained_joints(const Gathered& gathered, const ModelChoice& choice) {
   std::vector<bool> out;
-  for (std::size_t j = 0; j < choice.held_out_r2.size(); ++j)
-    out.push_back(!gathered.windows.still[j] && choice.held_out_r2[j] < 1.0 - kLooked * kLooked);
+  for (int j = 0; j < static_cast<int>(choice.held_out_r2.size()); ++j)
+    out.push_back(!has_joint(gathered.windows.still, j) && choice.held_out_r2[j] < 1.0 - kLooked * kLooked);
   return out;
 }
 
@@ -165,14 +165,13 @@ struct Tried {
 /// the same gains.
 Tried try_candidates(const Gathered& gathered, const Robot& robot, const ModelDraft& draft) {
   const ParameterSpace& space = gathered.windows.space;
-  const WeakMoments moments(gathered.windows, nominal_timing(robot));
-  const Chooser chooser(moments, space, draft.nominal);
+  const Chooser chooser(gathered.windows, nominal_timing(robot), draft.nominal);
   ModelChoice c = draft.choice;
   c.terms.clear();
-  c.weak.set.assign(space.joints(), moments.yardstick());
-  c = choose_extra(chooser, space, draft.wanted.asked, std::move(c));
+  c.weak.set.assign(space.joints(), chooser.yardstick());
+  c = choose_extra(chooser, draft.wanted.asked, std::move(c));
   std::vector<bool> counts;
-  for (const bool still : gathered.windows.still) counts.push_back(!still);
+  for (int j = 0; j < space.joints(); ++j) counts.push_back(!has_joint(gathered.windows.still, j));
   if (robot.payloads.empty()) c = choose_gains(chooser, counts, std::move(c));
   Tried out{c.wanted, c.weak.gain, c.terms};
   for (int p = space.extra_begin(); p < space.timing(); ++p)
@@ -202,9 +201,7 @@ DraftedModel choose_again(std::span<LogSource* const> logs, const ParameterSpace
                           DraftedModel model) {
   auto& [gathered, draft] = model;
   draft = moved_to(space, robot, std::move(draft));
-  const WeakMoments moments(gathered.windows, nominal_timing(robot));
-  draft.choice = choose_model(moments, space, draft.nominal, draft.wanted.asked, draft.wanted.optional,
-                              gathered.windows.shifts, static_cast<int>(gathered.windows.sets.size()));
+  draft.choice = choose_model(gathered.windows, nominal_timing(robot), draft.nominal, draft.wanted);
   draft.torque = fit_torque(gathered, draft.choice, draft.nominal, robot, space);
   return settle_columns(logs, robot, std::move(model));
 }

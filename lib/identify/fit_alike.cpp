@@ -36,40 +36,17 @@ constexpr double kOutlierShare =
 
 std::vector<double> list(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
 
-/// Values of the parameters by one method. The fields with a namesake in Identification mean the same.
-struct MethodValues {
-  IdentifyMethod method = IdentifyMethod::automatic;
-  FitStatus status;
-  Eigen::VectorXd estimate;
-  Eigen::MatrixXd covariance;
-  Eigen::VectorXd noise;       ///< std of q, then of dq, by joint
-  std::optional<Issue> issue;  ///< why another method was not used
-};
-
-MethodValues values_of(const TorqueFit& torque, const Gathered& gathered, std::optional<Issue> issue) {
-  return {IdentifyMethod::weak_form,
-          {IdentificationStatus::converged, fmt::format("{} windows", torque.fit.windows)},
-          torque.fit.parameters,
-          torque.fit.covariance,
-          gathered.measurements.noise(),
-          std::move(issue)};
-}
-
-MethodValues values_of(const ShootingFit& shot) {
-  const auto status = shot.converged ? IdentificationStatus::converged : IdentificationStatus::not_converged;
-  return {
-      IdentifyMethod::output_error, {status, shot.reason}, shot.parameters, shot.covariance, shot.noise, {}};
-}
-
-Identification with_values(Identification id, MethodValues values, bool has_dq) {
-  id.method = values.method;
-  id.status = values.status.status;
-  id.reason = std::move(values.status.reason);
-  id.estimate = std::move(values.estimate);
-  id.covariance = std::move(values.covariance);
-  id.q_noise = list(values.noise.head(id.space.joints()));
-  if (has_dq) id.dq_noise = list(values.noise.tail(id.space.joints()));
-  if (values.issue) id.issues.add(std::move(*values.issue));
+/// Returns the identification with the values of one method. `noise`: std of q, then of dq, by joint.
+Identification with_values(IdentifyMethod method, FitStatus status, const Eigen::VectorXd& estimate,
+                           const Eigen::MatrixXd& covariance, const Eigen::VectorXd& noise, bool has_dq,
+                           Identification id) {
+  id.method = method;
+  id.status = status.status;
+  id.reason = std::move(status.reason);
+  id.estimate = estimate;
+  id.covariance = covariance;
+  id.q_noise = list(noise.head(id.space.joints()));
+  if (has_dq) id.dq_noise = list(noise.tail(id.space.joints()));
   return id;
 }
 
@@ -151,41 +128,32 @@ Issue outlier_issue(int log, const std::string& path, bool kept) {
                                        "shows another robot, another load, or a fault"));
 }
 
-/// What the columns of the logs look like beside the robot file.
-struct ColumnVerdict {
-  FitStatus status;            ///< that of the identification, and what was found
-  std::optional<Issue> issue;  ///< another interpretation that explains the torque
-};
-
-/// Searches another interpretation of the columns if the robot explains the logs poorly or is infeasible.
-ColumnVerdict judge_columns(std::span<LogSource* const> logs, const std::vector<LogSurvey>& surveys,
-                            const std::vector<int>& still, bool infeasible, const Identification& id) {
-  ColumnVerdict out{{id.status, id.reason}, {}};
-  bool poor = false;
-  for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
-    if (std::count(still.begin(), still.end(), static_cast<int>(j) + 1) == 0)
-      poor = poor || !(id.fit_r2[j] > kGood);
+/// Returns the identification with what contradicts the columns of the logs: a velocity that is not that of
+/// its position or, if the robot explains the logs poorly or is infeasible, another interpretation that
+/// explains the torque.
+Identification with_judged_columns(std::span<LogSource* const> logs, const Gathered& gathered,
+                                   bool is_infeasible, Identification id) {
+  bool is_poor = is_infeasible;
   for (int j = 0; j < id.space.joints(); ++j) {
-    const auto found = std::find_if(surveys.begin(), surveys.end(),
+    is_poor = is_poor || (!has_joint(gathered.windows.still, j) && !(id.fit_r2[j] > kGood));
+    const auto found = std::find_if(gathered.surveys.begin(), gathered.surveys.end(),
                                     [j](const LogSurvey& log) { return log.velocity[j].disagrees(); });
-    if (found == surveys.end()) continue;
-    out.status = out.status.with(
-        FitStatus{IdentificationStatus::unexplained, disagreement_text(found->velocity[j], j + 1)});
+    if (found != gathered.surveys.end())
+      id.take(FitStatus{IdentificationStatus::unexplained, disagreement_text(found->velocity[j], j + 1)});
   }
-  if (!poor && !infeasible) return out;
+  if (!is_poor) return id;
   const Reinterpretation found = find_reinterpretation(logs, id.robot);
-  if (found.what.empty()) return out;
-  out.status = out.status.with(
-      FitStatus{IdentificationStatus::unexplained, fmt::format("it looks as if {}", found.what)});
-  out.issue =
+  if (found.what.empty()) return id;
+  id.take(FitStatus{IdentificationStatus::unexplained, fmt::format("it looks as if {}", found.what)});
+  id.issues.add(
       make_issue("misread_columns", Severity::severe,
                  fmt::format("it looks as if {}: with that interpretation the robot explains at least {:.1f} "
                              "% of every joint's torque, with the present one {}; {}",
                              found.what, 100.0 * found.r2_after,
                              found.r2_before > 0.0 ? fmt::format("{:.1f} %", 100.0 * found.r2_before)
                                                    : std::string("none of it"),
-                             found.cure));
-  return out;
+                             found.cure)));
+  return id;
 }
 
 /// Whether a gear was found to be a spring, so that the motion is not that of rigid gears.
@@ -195,41 +163,51 @@ bool has_compliant_gear(const ParameterSpace& space, const TorqueFit& torque) {
   return false;
 }
 
-/// Returns the fit of the motion if it is accepted or asked for, else that of the torque balance.
-MethodValues settle_method(std::span<LogSource* const> logs, const DraftedModel& model,
-                           const IdentifyOptions& options, const Progress& progress,
-                           const Identification& id) {
+/// Returns the identification with the fit of the motion if it is accepted or asked for, else with that of
+/// the torque balance.
+Identification with_settled_method(std::span<LogSource* const> logs, const DraftedModel& model,
+                                   const IdentifyOptions& options, const Progress& progress,
+                                   Identification id) {
   const TorqueFit& torque = model.draft.torque;
   const Eigen::VectorXd& nominal = model.draft.nominal;
-  const std::vector<bool>& still = model.gathered.windows.still;
-  const bool moves = std::count(still.begin(), still.end(), true) == 0;  // all joints move, else M is unknown
+  const std::vector<int>& still = model.gathered.windows.still;
+  const bool has_dq = model.gathered.measurements.has_dq();
   double worst = 1.0;
   for (int j = 0; j < id.space.joints(); ++j)
-    if (!still[j]) worst = std::min(worst, torque.fit.r2[j]);
-  std::optional<Issue> issue;
+    if (!has_joint(still, j)) worst = std::min(worst, torque.fit.r2[j]);
   if (options.method == IdentifyMethod::automatic && worst < kWorthShooting) {
-    issue =
+    id.issues.add(
         make_issue("torque_unexplained", Severity::note,
                    fmt::format("the model explains only {:.1f} % of some joint's torque: its motion was not "
                                "fitted",
-                               100.0 * std::max(worst, 0.0)));
+                               100.0 * std::max(worst, 0.0))));
   } else if (options.method == IdentifyMethod::automatic && has_compliant_gear(id.space, torque)) {
-    issue = make_issue("gear_compliance", Severity::note,
-                       "a gear is elastic: values and intervals come from the momentum balance, the "
-                       "motion with rigid gears was not fitted");
-  } else if (options.method != IdentifyMethod::weak_form && moves) {
+    id.issues.add(make_issue("gear_compliance", Severity::note,
+                             "a gear is elastic: values and intervals come from the momentum balance, the "
+                             "motion with rigid gears was not fitted"));
+  } else if (options.method != IdentifyMethod::weak_form &&
+             still.empty()) {  // with still joints M is unknown
     TorqueFit start = torque;
     for (int j = 0; j < id.space.joints(); ++j)
       start.fit.parameters[id.space.log_width(j)] = nominal[id.space.log_width(j)];
     const ShootingOutcome shot = shoot(logs, model.gathered, start, id, options, progress);
-    const bool forced = options.method == IdentifyMethod::output_error && shot.fit.parameters.size() > 0;
-    if (shot.refused.empty() || forced) return values_of(shot.fit);
-    issue = make_issue("model_error", Severity::note,
-                       shot.refused +
-                           "; values and intervals come from the momentum balance over short "
-                           "windows instead of the output error");
+    const ShootingFit& fit = shot.fit;
+    const bool forced = options.method == IdentifyMethod::output_error && fit.parameters.size() > 0;
+    if (shot.refused.empty() || forced) {
+      const auto status =
+          fit.converged ? IdentificationStatus::converged : IdentificationStatus::not_converged;
+      return with_values(IdentifyMethod::output_error, {status, fit.reason}, fit.parameters, fit.covariance,
+                         fit.noise, has_dq, std::move(id));
+    }
+    id.issues.add(make_issue("model_error", Severity::note,
+                             shot.refused +
+                                 "; values and intervals come from the momentum balance over short "
+                                 "windows instead of the output error"));
   }
-  return values_of(torque, model.gathered, std::move(issue));
+  return with_values(IdentifyMethod::weak_form,
+                     {IdentificationStatus::converged, fmt::format("{} windows", torque.fit.windows)},
+                     torque.fit.parameters, torque.fit.covariance, model.gathered.measurements.noise(),
+                     has_dq, std::move(id));
 }
 
 /// Returns the chosen terms, those that the last fit dropped as not kept.
@@ -257,18 +235,17 @@ struct ChosenModel {
 };
 
 /// Chooses the model from the logs and fits its torque; logs that repeat or contradict others are left out.
-ChosenModel draft_model(std::span<LogSource* const> logs, Gathered gathered, const std::vector<int>& still,
-                        const IdentifyOptions& options, const Identification& id) {
+ChosenModel draft_model(std::span<LogSource* const> logs, Gathered gathered, const IdentifyOptions& options,
+                        const Identification& id) {
   ModelDraft draft;
   std::vector<Issue> issues;
   draft.nominal = parameters_of(id.space, id.robot.chain, nominal_timing(id.robot));
-  draft.wanted = wanted_parameters(id.space, id.robot, still, options.estimate_offset && has_fast_log(id));
+  draft.wanted = wanted_parameters(id.space, id.robot, gathered.windows.still,
+                                   options.estimate_offset && has_fast_log(id));
   for (int p = id.space.bend(0); p < id.space.timing(); ++p)
     if (draft.wanted.asked[p]) draft.nominal[p] = 0.0;
   const auto choose = [&] {
-    return choose_model(WeakMoments(gathered.windows, nominal_timing(id.robot)), id.space, draft.nominal,
-                        draft.wanted.asked, draft.wanted.optional, gathered.windows.shifts,
-                        static_cast<int>(gathered.windows.sets.size()));
+    return choose_model(gathered.windows, nominal_timing(id.robot), draft.nominal, draft.wanted);
   };
   std::vector<int> left_out;
   for (const RepeatedLog& repeated : repeated_logs(id.logs)) {
@@ -328,17 +305,6 @@ Robot with_drives(Robot robot, const std::vector<double>& gain, const TorqueFit&
   return robot;
 }
 
-/// Returns the status after a look at the bounds and at the parameters that the motion does not determine.
-FitStatus settle_status(FitStatus status, bool infeasible, bool identifiable, const std::string& why_not) {
-  const auto excited = [&] { return status.status == IdentificationStatus::converged; };
-  if (infeasible && excited())
-    status = status.with(FitStatus{IdentificationStatus::poorly_excited,
-                                   "the best fit is infeasible: no real robot has these parameters"});
-  if (!identifiable && excited())
-    status = status.with(FitStatus{IdentificationStatus::poorly_excited, why_not});
-  return status;
-}
-
 }  // namespace
 
 AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const IdentifyOptions& options,
@@ -350,41 +316,39 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   GatheredLogs read = gather(logs, id.space, options.window_s, options.max_windows, progress);
   id.logs = std::move(read.logs);
   id.issues = std::move(read.issues);
-  const std::vector<int> still = unmoved_joints(read.gathered.measurements, id.space);
-  read.gathered.leave_out_joints(still);
-  ChosenModel chosen = draft_model(logs, std::move(read.gathered), still, options, id);
+  ChosenModel chosen = draft_model(logs, std::move(read.gathered), options, id);
   const Gathered& gathered = chosen.model.gathered;
+  const std::vector<int>& still = gathered.windows.still;
   const ModelDraft& draft = chosen.model.draft;
   TorqueFit& torque = chosen.model.draft.torque;
   id.space = torque.space;
   for (std::size_t i = 0; i < id.logs.size(); ++i) id.logs[i].left_out = gathered.left_out[i];
   for (Issue& issue : chosen.issues) id.issues.add(std::move(issue));
-  MethodValues values = settle_method(logs, chosen.model, options, progress, id);
-  id = with_values(std::move(id), std::move(values), gathered.measurements.has_dq());
+  id = with_settled_method(logs, chosen.model, options, progress, std::move(id));
   id.robot = with_drives(std::move(id.robot), gathered.torque_gain, torque);
   for (Issue& issue : gain_issues(gathered.torque_gain)) id.issues.add(std::move(issue));
 
-  const std::vector<int> undriven = undriven_joints(id.space, torque);
-  const Confounded confounded = confounded_parameters(id.space, robot, still, undriven, torque);
+  const std::vector<int> undriven = undriven_joints(torque);
+  const Confounded confounded = confounded_parameters(robot, still, undriven, torque);
   torque.fit.confounded = confounded.parameters;
   id.condition_number = torque.fit.condition_number;
   id.held_out_r2 = draft.choice.held_out_r2;
   id.terms = draft.choice.terms;
-  FitVerdict verdict = judge_fit(torque, draft.choice, gathered, still, undriven, id);
-  id = with_verdict(std::move(id), std::move(verdict));
+  id = with_verdict(torque, draft.choice, gathered, undriven, std::move(id));
   const bool is_infeasible = !torque.why_infeasible.empty();
-  ColumnVerdict columns = judge_columns(logs, gathered.surveys, still, is_infeasible, id);
-  if (columns.issue) id.issues.add(std::move(*columns.issue));
+  id = with_judged_columns(logs, gathered, is_infeasible, std::move(id));
   if (id.method == IdentifyMethod::weak_form) {
     id.estimate = with_smooth_friction(draft.nominal, id.space, std::move(id.estimate));
     id.space = with_smooth_drives(draft.nominal, std::move(id.space));
   }
   id.base_parameters = base_parameter_table(
       torque.fit, {torque.wanted, still, undriven, confounded.leaning, has_fast_log(id)}, id);
-  const FitStatus status = settle_status(std::move(columns.status), is_infeasible, all_identifiable(id),
-                                         why_not_identifiable(still, undriven, confounded.leaning));
-  id.status = status.status;
-  id.reason = status.reason;
+  using Status = IdentificationStatus;
+  if (is_infeasible && id.status == Status::converged)
+    id.take(
+        FitStatus{Status::poorly_excited, "the best fit is infeasible: no real robot has these parameters"});
+  if (!all_identifiable(id) && id.status == Status::converged)
+    id.take(FitStatus{Status::poorly_excited, why_not_identifiable(still, undriven, confounded.leaning)});
   for (int p = 0; p < id.space.rigid(); ++p)
     fit.usable.push_back(torque.fit.free[p] && !torque.fit.confounded[p]);
   return fit;

@@ -68,6 +68,17 @@ Stretch shifted(const Stretch& s, const std::vector<int>& shift) {
   return out;
 }
 
+/// Returns the joints, from 1, whose position hardly changed in all logs.
+std::vector<int> unmoved_joints(const Measurements& measurements, const ParameterSpace& space) {
+  std::vector<int> still;
+  const Eigen::VectorXd range = measurements.q_high() - measurements.q_low();
+  for (int j = 0; j < space.joints(); ++j) {
+    const double least = space.chain.geometry[j].kind == AxisKind::revolute ? kLeastTurn : kLeastWay_m;
+    if (measurements.still(j) || range[j] < least) still.push_back(j + 1);
+  }
+  return still;
+}
+
 }  // namespace
 
 void Measurements::add(const Stretch& s) {
@@ -148,14 +159,12 @@ GatheredLogs gather(std::span<LogSource* const> logs, const ParameterSpace& spac
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const LogIdentity& from = logs[i]->identity();
     const StretchSummary& read = out.surveys[i].summary;
-    all.logs.push_back({from.path,
-                        from.sha256,
-                        read.rows,
-                        out.windows.sets[0].rows_used(static_cast<int>(i)),
-                        read.period_s,
-                        0.0,
-                        {},
-                        false});
+    all.logs.push_back({.path = from.path,
+                        .sha256 = from.sha256,
+                        .rows = read.rows,
+                        .rows_used = out.windows.sets[0].rows_used(static_cast<int>(i)),
+                        .sample_period_s = read.period_s,
+                        .fit_r2 = {}});
   }
   const std::size_t windows = out.windows.sets[0].all().size();
   if (windows < kWindows)
@@ -164,6 +173,7 @@ GatheredLogs gather(std::span<LogSource* const> logs, const ParameterSpace& spac
         fmt::format("gives {} usable windows in all; identification needs at least {}: give longer logs of a "
                     "moving robot",
                     windows, kWindows));
+  out.windows.still = unmoved_joints(out.measurements, space);
   while (out.windows.sets.back().all().size() < kWindows) out.windows.sets.pop_back();
   return all;
 }
@@ -182,21 +192,6 @@ Gathered gather_again(std::span<LogSource* const> logs, const ParameterSpace& sp
 void Gathered::leave_out(const std::vector<int>& logs) {
   for (const int log : logs) left_out[log] = true;
   for (WeakWindows& set : windows.sets) set.leave_out(left_out);
-}
-
-void Gathered::leave_out_joints(const std::vector<int>& still) {
-  windows.still.assign(windows.space.joints(), false);
-  for (const int joint : still) windows.still[joint - 1] = true;
-}
-
-std::vector<int> unmoved_joints(const Measurements& measurements, const ParameterSpace& space) {
-  std::vector<int> still;
-  const Eigen::VectorXd range = measurements.q_high() - measurements.q_low();
-  for (int j = 0; j < space.joints(); ++j) {
-    const double least = space.chain.geometry[j].kind == AxisKind::revolute ? kLeastTurn : kLeastWay_m;
-    if (measurements.still(j) || range[j] < least) still.push_back(j + 1);
-  }
-  return still;
 }
 
 std::vector<Excerpt> gather_excerpts(std::span<LogSource* const> logs, const Gathered& gathered,

@@ -52,8 +52,6 @@ struct Gathered {
   std::vector<double> torque_gain;  ///< by joint: true torque per logged torque; empty: all 1
 
   void leave_out(const std::vector<int>& logs);
-  /// Excludes the balances of those joints, from 1.
-  void leave_out_joints(const std::vector<int>& still);
 };
 
 /// Data of the logs, the properties of each log, and their issues.
@@ -63,17 +61,15 @@ struct GatheredLogs {
   Issues issues;
 };
 
-/// Reads every log twice, for the windows of `space`. Throws Error(input) if they give too few windows.
+/// Reads every log twice, for the windows of `space`. A joint is still if its position hardly changed in all
+/// logs: within its noise, or by less than 2 mrad or .2 mm. Throws Error(input) if the logs give too few
+/// windows.
 GatheredLogs gather(std::span<LogSource* const> logs, const ParameterSpace& space, double shortest_window_s,
                     int max_windows, const Progress& progress);
 
 /// Reads every log once more and returns the windows of another space; the other fields of `gathered` stay.
 Gathered gather_again(std::span<LogSource* const> logs, const ParameterSpace& space,
                       const ExtraSetting& setting, Gathered gathered);
-
-/// Returns the joints, from 1, whose position hardly changed in all logs: within its noise, or by less than 2
-/// mrad or .2 mm.
-std::vector<int> unmoved_joints(const Measurements& measurements, const ParameterSpace& space);
 
 /// Returns excerpts of the logs with each joint's torque shifted by the samples of its delay.
 std::vector<Excerpt> gather_excerpts(std::span<LogSource* const> logs, const Gathered& gathered,

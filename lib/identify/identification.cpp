@@ -26,8 +26,10 @@ const char* to_string(IdentificationStatus status) {
   return "not_run";
 }
 
-FitStatus FitStatus::with(const std::optional<FitStatus>& found) const {
-  return found ? FitStatus{found->status, reason + "; " + found->reason} : *this;
+void Identification::take(const std::optional<FitStatus>& found) {
+  if (!found) return;
+  status = found->status;
+  reason += "; " + found->reason;
 }
 
 const char* to_string(IdentifyMethod method) {

@@ -29,13 +29,10 @@ enum class IdentificationStatus {
 
 const char* to_string(IdentificationStatus status);
 
-/// Status of an identification and the reasons for it, which "; " separates.
+/// Status that a test found, and why.
 struct FitStatus {
   IdentificationStatus status = IdentificationStatus::not_run;
   std::string reason;
-
-  /// Returns the status that a test found, with both reasons; the present one if the test found nothing.
-  FitStatus with(const std::optional<FitStatus>& found) const;
 };
 
 /// Estimator of the values.
@@ -86,7 +83,7 @@ struct ModelTerm {
 /// Robot identified from healthy logs.
 struct Identification {
   IdentificationStatus status = IdentificationStatus::not_run;
-  std::string reason;                                 ///< why it stopped, in a sentence
+  std::string reason;  ///< why it stopped, in a sentence, and what tests found, separated by "; "
   IdentifyMethod method = IdentifyMethod::automatic;  ///< the estimator used
   /// The input robot with the identified values: `chain` moves as the logs did (its single masses and lengths
   /// are real only if physical_parameters are identifiable), `torque_phi`, friction.
@@ -113,6 +110,9 @@ struct Identification {
   ParameterSpace space;
   Eigen::VectorXd estimate;    ///< all parameters of `space`
   Eigen::MatrixXd covariance;  ///< of `estimate`; zero rows for parameters that were kept
+
+  /// Takes the status that a test found and adds its reason; unchanged if it found nothing.
+  void take(const std::optional<FitStatus>& found);
 };
 
 /// Returns the identified robot with parameters drawn from their joint normal distribution; masses and

@@ -20,7 +20,7 @@
 #include "lib/identify/fit_alike.hpp"
 #include "lib/identify/physical.hpp"
 #include "lib/identify/shooting_stage.hpp"
-#include "lib/identify/verdict/inertia_verdict.hpp"
+#include "lib/identify/verdict/fit_verdict.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {
@@ -188,10 +188,8 @@ Round fit_groups(const std::vector<PayloadGroup>& groups, std::size_t logs, cons
   if (!physical.guessed_lengths.empty()) id.issues.add(guess_issue(physical.guessed_lengths));
   SizedSpace sized = sized_space(physical, id);
   id.space = std::move(sized.space);
-  const FitStatus status =
-      FitStatus{id.status, id.reason}.with(hardly_determined(physical, id.status)).with(negative_inertia(id));
-  id.status = status.status;
-  id.reason = status.reason;
+  id.take(hardly_determined(physical, id.status));
+  id.take(negative_inertia(id));
   id.physical_parameters = std::move(physical.parameters);
   id.robot = robot_with(id.robot, id.space, id.estimate);
   return {std::move(id), std::move(sized.lengths)};

@@ -315,6 +315,18 @@ Eigen::MatrixXd base_map(const ParameterSpace& space) {
   return (all * space.lift).colPivHouseholderQr().solve(all);
 }
 
+bool has_joint(const std::vector<int>& joints, int joint) {
+  return std::find(joints.begin(), joints.end(), joint + 1) != joints.end();
+}
+
+double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& values, int joint) {
+  double largest = 0.0;
+  for (int j = 0; j < space.joints(); ++j)
+    if (space.chain.geometry[j].kind == space.chain.geometry[joint].kind)
+      largest = std::max(largest, values[j]);
+  return largest;
+}
+
 WantedParameters wanted_parameters(const ParameterSpace& space, const Robot& robot,
                                    const std::vector<int>& still, bool try_offsets) {
   WantedParameters wanted{std::vector<bool>(space.count(), true), std::vector<bool>(space.count(), false)};
@@ -341,7 +353,7 @@ WantedParameters wanted_parameters(const ParameterSpace& space, const Robot& rob
     const bool given =
         space.extra_at(p).kind == ExtraKind::load_friction && is_exact("fl" + std::to_string(joint + 1));
     wanted.optional[p] = true;
-    wanted.asked[p] = !given && std::count(still.begin(), still.end(), joint + 1) == 0;
+    wanted.asked[p] = !given && !has_joint(still, joint);
   }
   for (int joint : still)
     for (int p : {space.viscous(joint - 1), space.coulomb(joint - 1), space.offset(joint - 1),

@@ -79,6 +79,12 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain& chain, d
 /// Returns the map from the numbers of links and rotors to base parameters: base x (11 n).
 Eigen::MatrixXd base_map(const ParameterSpace& space);
 
+/// Whether `joints`, from 1, have joint `joint`, from 0.
+bool has_joint(const std::vector<int>& joints, int joint);
+
+/// Returns the largest of the values, one a joint, among the joints of the same kind as `joint`.
+double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& values, int joint);
+
 /// Parameters to be estimated from logs.
 struct WantedParameters {
   std::vector<bool> asked;     ///< not given exactly, nor friction of a joint that never moves

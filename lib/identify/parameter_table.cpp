@@ -25,8 +25,8 @@ bool is_given(const Identification& id, int p) {
 /// Returns the still joints that affect a parameter: its own for friction, all for other parameters.
 std::vector<int> still_for(const Identification& id, int p, const std::vector<int>& still) {
   if (p < id.space.rigid() || p == id.space.timing()) return still;
-  const int joint = id.space.joint_of(p) + 1;
-  return std::count(still.begin(), still.end(), joint) > 0 ? std::vector<int>{joint} : std::vector<int>{};
+  const int joint = id.space.joint_of(p);
+  return has_joint(still, joint) ? std::vector<int>{joint + 1} : std::vector<int>{};
 }
 
 std::string why_offset(const Identification& id, int p, const TableFacts& facts) {

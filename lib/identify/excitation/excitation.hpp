@@ -8,7 +8,6 @@
 namespace faultline {
 
 struct JointFit;
-struct ParameterSpace;
 struct TorqueFit;
 
 /// Motion of one joint in the logs.
@@ -42,8 +41,7 @@ struct Excitation {
 
 /// Returns what the motion of the logs determines, by joint and by parameter. `still` are the joints that
 /// never move, from 1; `fits` and `residual_rms` are by joint, of the same windows as `torque`.
-Excitation motion_excitation(const TorqueFit& torque, const ParameterSpace& space,
-                             const std::vector<JointFit>& fits, const std::vector<double>& residual_rms,
-                             const std::vector<int>& still);
+Excitation motion_excitation(const TorqueFit& torque, const std::vector<JointFit>& fits,
+                             const std::vector<double>& residual_rms, const std::vector<int>& still);
 
 }  // namespace faultline

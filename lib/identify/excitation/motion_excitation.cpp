@@ -16,10 +16,9 @@ namespace {
 
 constexpr double kOneWay = 0.98;   // of the moving windows in one direction: beyond, the motion is one-way
 constexpr double kOneSpeed = 0.1;  // standard deviation over mean of the speed: below, the speed is constant
-constexpr double kLeastScale = 0.03;   // of the largest torque scale of the same kind of joint
-constexpr double kNotShown = 1e-9;     // of the torque scale: smaller columns are zero
-constexpr double kShownMoving = 1e-6;  // of the squared column: least share from moving joints
-constexpr double kWorthNaming = 0.1;   // of the largest weight: least weight listed in the weakest mixture
+constexpr double kLeastScale = 0.03;  // of the largest torque scale of the same kind of joint
+constexpr double kNotShown = 1e-9;    // of the torque scale: smaller columns are zero
+constexpr double kWorthNaming = 0.1;  // of the largest weight: least weight listed in the weakest mixture
 constexpr double kLeastEigenvalue = 1e-14;  // of the scaled moments: rounding; the inverse stays finite
 
 std::string what_lacks(const JointFit& fit, double forward, bool still) {
@@ -68,15 +67,10 @@ std::vector<int> judged_columns(const TorqueFit& torque, const ParameterSpace& s
 
 /// Returns the torque residual of each joint, none far smaller than the largest of the same kind of joint.
 Eigen::VectorXd joint_scales(const ParameterSpace& space, const std::vector<double>& residual_rms) {
-  const int n = space.joints();
-  const auto kind = [&](int j) { return space.chain.geometry[j].kind; };
-  Eigen::VectorXd scale(n);
-  for (int j = 0; j < n; ++j) {
-    double largest = 0.0;
-    for (int k = 0; k < n; ++k)
-      if (kind(k) == kind(j)) largest = std::max(largest, residual_rms[k]);
-    scale[j] = std::max({residual_rms[j], kLeastScale * largest, 1e-9});
-  }
+  const Eigen::Map<const Eigen::VectorXd> rms(residual_rms.data(), space.joints());
+  Eigen::VectorXd scale(space.joints());
+  for (int j = 0; j < space.joints(); ++j)
+    scale[j] = std::max({rms[j], kLeastScale * largest_alike(space, rms, j), 1e-9});
   return scale;
 }
 
@@ -105,22 +99,6 @@ Inverse invert(const Eigen::MatrixXd& moments, const std::vector<bool>& at_rest)
   const Eigen::VectorXd values = eigen.values.cwiseMax(kLeastEigenvalue);
   out.inverse = eigen.vectors * values.cwiseInverse().asDiagonal() * eigen.vectors.transpose();
   out.weakest = eigen.vectors.col(0);
-  return out;
-}
-
-/// Marks the columns that only joints at rest excite, which is noise.
-std::vector<bool> shown_at_rest(const WeakSystem& s, const std::vector<int>& columns,
-                                const std::vector<int>& still) {
-  std::vector<bool> out;
-  for (const int p : columns) {
-    double all = 0.0, moving = 0.0;
-    for (Eigen::Index k = 0; k < s.a.rows(); ++k) {
-      const double square = s.a(k, p) * s.a(k, p);
-      all += square;
-      if (std::count(still.begin(), still.end(), s.joint[k] + 1) == 0) moving += square;
-    }
-    out.push_back(moving <= kShownMoving * all);
-  }
   return out;
 }
 
@@ -153,16 +131,16 @@ Excitation with_parameters(const ParameterSpace& space, const std::vector<bool>&
 
 }  // namespace
 
-Excitation motion_excitation(const TorqueFit& torque, const ParameterSpace& space,
-                             const std::vector<JointFit>& fits, const std::vector<double>& residual_rms,
-                             const std::vector<int>& still) {
+Excitation motion_excitation(const TorqueFit& torque, const std::vector<JointFit>& fits,
+                             const std::vector<double>& residual_rms, const std::vector<int>& still) {
+  const ParameterSpace& space = torque.space;
   Excitation out;
-  for (int j = 0; j < space.joints(); ++j)
-    out.joints.push_back(of_joint(fits[j], std::count(still.begin(), still.end(), j + 1) > 0));
+  for (int j = 0; j < space.joints(); ++j) out.joints.push_back(of_joint(fits[j], has_joint(still, j)));
   out.columns = judged_columns(torque, space);
   out.joint_scale = joint_scales(space, residual_rms);
   out.moments = moments_of(torque.system, out.columns, out.joint_scale);
-  const std::vector<bool> at_rest = shown_at_rest(torque.system, out.columns, still);
+  std::vector<bool> at_rest;
+  for (const int p : out.columns) at_rest.push_back(is_shown_at_rest(torque.system, p, still));
   return with_parameters(space, at_rest, std::move(out));
 }
 

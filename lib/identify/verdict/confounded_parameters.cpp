@@ -15,14 +15,9 @@
 namespace faultline {
 namespace {
 
-constexpr double kShown = 1e-6;          // of the squared column: least share from moving joints
 constexpr double kFrictionAlone = 0.95;  // of the explained torque: more shows that the joint is undriven
 constexpr double kOtherwise = 0.2;       // of a parameter: the driven joints give another value,
 constexpr double kOtherwiseStd = 3;      // by so many standard deviations
-
-bool has(const std::vector<int>& joints, int joint) {
-  return std::find(joints.begin(), joints.end(), joint + 1) != joints.end();
-}
 
 /// Returns, of the torque that the model explains of each joint, the share that its own friction explains.
 Eigen::VectorXd friction_share(const ParameterSpace& space, const TorqueFit& torque) {
@@ -42,22 +37,6 @@ Eigen::VectorXd friction_share(const ParameterSpace& space, const TorqueFit& tor
   return share;
 }
 
-/// Returns the base parameters that only joints at rest excite.
-std::vector<bool> unmoved_parameters(const ParameterSpace& space, const std::vector<int>& still,
-                                     const WeakSystem& system) {
-  std::vector<bool> out(space.rigid(), false);
-  for (int p = 0; p < space.rigid(); ++p) {
-    double all = 0.0, shown = 0.0;
-    for (Eigen::Index k = 0; k < system.a.rows(); ++k) {
-      const double square = system.a(k, p) * system.a(k, p);
-      all += square;
-      if (!has(still, system.joint[k])) shown += square;
-    }
-    out[p] = shown <= kShown * all;
-  }
-  return out;
-}
-
 /// Returns the base parameters of undriven joints to which the driven joints alone give another value.
 std::vector<bool> undriven_parameters(const ParameterSpace& space, const std::vector<int>& undriven,
                                       const TorqueFit& torque) {
@@ -66,7 +45,7 @@ std::vector<bool> undriven_parameters(const ParameterSpace& space, const std::ve
   WeakSystem driven = torque.system;
   std::vector<bool> felt(space.rigid(), false);
   for (Eigen::Index k = 0; k < driven.y.size(); ++k) {
-    if (!has(undriven, driven.joint[k])) continue;
+    if (!has_joint(undriven, driven.joint[k])) continue;
     for (int p = 0; p < space.rigid(); ++p) felt[p] = felt[p] || driven.a(k, p) != 0.0;
     driven.use[k] = 0.0;
   }
@@ -105,7 +84,8 @@ Confounded with_offsets(const ParameterSpace& space, const Robot& robot, const T
 
 }  // namespace
 
-std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& torque) {
+std::vector<int> undriven_joints(const TorqueFit& torque) {
+  const ParameterSpace& space = torque.space;
   const int n = space.joints();
   const Eigen::VectorXd friction = friction_share(space, torque);
   Eigen::VectorXd square = Eigen::VectorXd::Zero(n), rows = Eigen::VectorXd::Zero(n);
@@ -126,13 +106,13 @@ std::vector<int> undriven_joints(const ParameterSpace& space, const TorqueFit& t
   return undriven;
 }
 
-Confounded confounded_parameters(const ParameterSpace& space, const Robot& robot,
-                                 const std::vector<int>& still, const std::vector<int>& undriven,
-                                 const TorqueFit& torque) {
-  const std::vector<bool> unmoved = unmoved_parameters(space, still, torque.system);
+Confounded confounded_parameters(const Robot& robot, const std::vector<int>& still,
+                                 const std::vector<int>& undriven, const TorqueFit& torque) {
+  const ParameterSpace& space = torque.space;
   const std::vector<bool> otherwise = undriven_parameters(space, undriven, torque);
   std::vector<bool> confounded = torque.fit.confounded;
-  for (int p = 0; p < space.rigid(); ++p) confounded[p] = confounded[p] || unmoved[p] || otherwise[p];
+  for (int p = 0; p < space.rigid(); ++p)
+    confounded[p] = confounded[p] || otherwise[p] || is_shown_at_rest(torque.system, p, still);
   return with_offsets(space, robot, torque, std::move(confounded));
 }
 

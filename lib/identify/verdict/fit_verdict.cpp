@@ -37,41 +37,25 @@ struct RowSums {
   }
 };
 
-/// The rows of a torque balance that count, added up.
-struct BalanceSums {
-  std::vector<RowSums> joints;
-  std::vector<std::vector<RowSums>> by_log;  ///< by log, then by joint
-};
-
-BalanceSums balance_sums(const WeakSystem& s, const Eigen::VectorXd& residual, std::size_t logs) {
-  const std::vector<RowSums> none(s.joints);
-  BalanceSums out{none, std::vector<std::vector<RowSums>>(logs, none)};
-  for (Eigen::Index k = 0; k < s.y.size(); ++k) {
-    if (s.use[k] == 0.0) continue;
-    out.joints[s.joint[k]].add(s.y[k], residual[k]);
-    out.by_log[s.log[k]][s.joint[k]].add(s.y[k], residual[k]);
-  }
-  return out;
-}
-
 std::vector<double> r2_of(const std::vector<RowSums>& joints) {
   std::vector<double> out;
   for (const RowSums& sums : joints) out.push_back(sums.r2());
   return out;
 }
 
-TorqueDelays torque_delays(const ModelChoice& choice, const Gathered& gathered, const Identification& id) {
+/// Returns the identification with its torque delays: of the robot in whole samples, none if all are 0, and
+/// with the timing.
+Identification with_delays(const std::vector<int>& shift, const Gathered& gathered, Identification id) {
   double period = 0.0;
   for (const LogSurvey& survey : gathered.surveys) period = std::max(period, survey.summary.period_s);
-  TorqueDelays out{id.robot.torque_delay_s, {}};
-  out.whole_s.resize(choice.weak.shift.size(), 0.0);
-  for (std::size_t j = 0; j < out.whole_s.size(); ++j) {
-    out.whole_s[j] += choice.weak.shift[j] * period;
-    out.relative_s.push_back(out.whole_s[j] + (0.5 - id.estimate[id.space.timing()]) * period);
+  std::vector<double>& whole_s = id.robot.torque_delay_s;
+  whole_s.resize(shift.size(), 0.0);
+  for (std::size_t j = 0; j < shift.size(); ++j) {
+    whole_s[j] += shift[j] * period;
+    id.torque_delay_s.push_back(whole_s[j] + (0.5 - id.estimate[id.space.timing()]) * period);
   }
-  if (std::all_of(out.whole_s.begin(), out.whole_s.end(), [](double s) { return s == 0.0; }))
-    out.whole_s.clear();
-  return out;
+  if (std::all_of(whole_s.begin(), whole_s.end(), [](double s) { return s == 0.0; })) whole_s.clear();
+  return id;
 }
 
 /// Returns how much logs differ: the standard deviation between fits to single logs, by parameter.
@@ -150,9 +134,8 @@ std::optional<FitStatus> implausible(const Identification& id) {
 
 std::optional<FitStatus> unexplained(const std::vector<double>& r2, const std::vector<int>& still) {
   std::vector<int> joints;
-  for (std::size_t j = 0; j < r2.size(); ++j)
-    if (!(r2[j] >= kExplained) && std::count(still.begin(), still.end(), static_cast<int>(j) + 1) == 0)
-      joints.push_back(static_cast<int>(j) + 1);
+  for (int j = 0; j < static_cast<int>(r2.size()); ++j)
+    if (!(r2[j] >= kExplained) && !has_joint(still, j)) joints.push_back(j + 1);
   if (joints.empty()) return std::nullopt;
   return FitStatus{
       IdentificationStatus::unexplained,
@@ -164,8 +147,8 @@ std::optional<FitStatus> unexplained(const std::vector<double>& r2, const std::v
 /// not in held-out windows.
 std::optional<FitStatus> poorly_explained(const std::vector<double>& r2, const std::vector<double>& held_out,
                                           const std::vector<int>& exempt) {
-  for (std::size_t j = 0; j < r2.size(); ++j) {
-    if (std::count(exempt.begin(), exempt.end(), static_cast<int>(j) + 1) > 0) continue;
+  for (int j = 0; j < static_cast<int>(r2.size()); ++j) {
+    if (has_joint(exempt, j)) continue;
     if (r2[j] >= kWellExplained && held_out[j] >= kWellExplained) continue;
     return FitStatus{
         IdentificationStatus::poorly_explained,
@@ -182,43 +165,33 @@ std::optional<FitStatus> poorly_explained(const std::vector<double>& r2, const s
 
 }  // namespace
 
-FitVerdict judge_fit(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
-                     const std::vector<int>& still, const std::vector<int>& undriven,
-                     const Identification& id) {
+Identification with_verdict(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
+                            const std::vector<int>& undriven, Identification id) {
   const WeakSystem& s = torque.system;
+  const std::vector<int>& still = gathered.windows.still;
   const Eigen::VectorXd residual = s.y - s.a * id.estimate.head(id.space.linear());
-  const BalanceSums sums = balance_sums(s, residual, id.logs.size());
-  FitVerdict out;
-  for (const RowSums& joint : sums.joints) out.residual_rms.push_back(joint.rms());
-  out.fit_r2 = r2_of(sums.joints);
-  for (const std::vector<RowSums>& log : sums.by_log) out.log_r2.push_back(r2_of(log));
-  out.delays = torque_delays(choice, gathered, id);
-  out.between_logs_std = spread_between_logs(choice, id);
-  out.joint_fits = curves_of(torque, choice, gathered, residual, id);
-  for (const JointFit& fit : out.joint_fits) out.residual_patterns.push_back(residual_pattern(fit));
-  out.excitation = motion_excitation(torque, id.space, out.joint_fits, out.residual_rms, still);
-  out.trends = parameter_trends(torque, id.space, out.joint_fits);
-  out.status = FitStatus{id.status, id.reason}.with(unexplained(out.fit_r2, still)).with(implausible(id));
+  std::vector<RowSums> joints(s.joints);
+  std::vector<std::vector<RowSums>> by_log(id.logs.size(), joints);
+  for (Eigen::Index k = 0; k < s.y.size(); ++k) {
+    if (s.use[k] == 0.0) continue;
+    joints[s.joint[k]].add(s.y[k], residual[k]);
+    by_log[s.log[k]][s.joint[k]].add(s.y[k], residual[k]);
+  }
+  for (const RowSums& joint : joints) id.residual_rms.push_back(joint.rms());
+  id.fit_r2 = r2_of(joints);
+  for (std::size_t i = 0; i < id.logs.size(); ++i) id.logs[i].fit_r2 = r2_of(by_log[i]);
+  id = with_delays(choice.weak.shift, gathered, std::move(id));
+  id.between_logs_std = spread_between_logs(choice, id);
+  id.joint_fits = curves_of(torque, choice, gathered, residual, id);
+  for (const JointFit& fit : id.joint_fits) id.residual_patterns.push_back(residual_pattern(fit));
+  id.excitation = motion_excitation(torque, id.joint_fits, id.residual_rms, still);
+  id.trends = parameter_trends(torque, id.joint_fits);
+  id.take(unexplained(id.fit_r2, still));
+  id.take(implausible(id));
   std::vector<int> exempt = still;
   exempt.insert(exempt.end(), undriven.begin(), undriven.end());
-  if (out.status.status == IdentificationStatus::converged)
-    out.status = out.status.with(poorly_explained(out.fit_r2, choice.held_out_r2, exempt));
-  return out;
-}
-
-Identification with_verdict(Identification id, FitVerdict verdict) {
-  id.status = verdict.status.status;
-  id.reason = std::move(verdict.status.reason);
-  id.residual_rms = std::move(verdict.residual_rms);
-  id.fit_r2 = std::move(verdict.fit_r2);
-  for (std::size_t i = 0; i < id.logs.size(); ++i) id.logs[i].fit_r2 = std::move(verdict.log_r2[i]);
-  id.robot.torque_delay_s = std::move(verdict.delays.whole_s);
-  id.torque_delay_s = std::move(verdict.delays.relative_s);
-  id.between_logs_std = std::move(verdict.between_logs_std);
-  id.joint_fits = std::move(verdict.joint_fits);
-  id.residual_patterns = std::move(verdict.residual_patterns);
-  id.excitation = std::move(verdict.excitation);
-  id.trends = std::move(verdict.trends);
+  if (id.status == IdentificationStatus::converged)
+    id.take(poorly_explained(id.fit_r2, choice.held_out_r2, exempt));
   return id;
 }
 

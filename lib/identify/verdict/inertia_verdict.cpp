@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/verdict/inertia_verdict.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,9 +7,11 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/random.hpp"
+#include "lib/identify/verdict/fit_verdict.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {

@@ -8,7 +8,6 @@
 namespace faultline {
 
 struct JointFit;
-struct ParameterSpace;
 struct TorqueFit;
 
 /// Estimate of a parameter from one log alone.
@@ -51,7 +50,6 @@ std::vector<ParameterTrend> tested_trends(std::vector<ParameterTrend> trends);
 /// A variance is the larger of two: from blocks of one log's residual (jackknife), which show model error
 /// where it occurs, and from the residual's autocorrelation over all logs together, which a short log cannot
 /// determine.
-std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const ParameterSpace& space,
-                                             const std::vector<JointFit>& fits);
+std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const std::vector<JointFit>& fits);
 
 }  // namespace faultline

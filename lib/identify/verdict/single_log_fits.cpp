@@ -145,8 +145,7 @@ std::vector<ResidualRun> runs_by_joint(const SingleLog& s) {
   return runs;
 }
 
-std::vector<SingleLog> fit_single_logs(const TorqueFit& torque, const ParameterSpace& space,
-                                       const std::vector<JointFit>& fits) {
+std::vector<SingleLog> fit_single_logs(const TorqueFit& torque, const std::vector<JointFit>& fits) {
   const std::vector<double> times = times_of(fits);
   std::map<int, std::vector<int>> rows;
   for (std::size_t k = 0; k < torque.system.log.size(); ++k)
@@ -158,7 +157,7 @@ std::vector<SingleLog> fit_single_logs(const TorqueFit& torque, const ParameterS
     s.log = log;
     for (const int k : of_log) s.time_s.push_back(times[k]);
     s.system = with_blocks(rows_of_log(torque.system, of_log), s.time_s);
-    s.fit = fit_weak_form(s.system, space, torque.fit.parameters, torque.wanted);
+    s.fit = fit_weak_form(s.system, torque.space, torque.fit.parameters, torque.wanted);
     for (int c = 0; c < s.system.a.cols(); ++c)
       if (s.fit.free[c]) s.columns.push_back(c);
     s.runs = runs_by_joint(s);
@@ -192,9 +191,9 @@ std::vector<std::vector<double>> autocovariances(const std::vector<SingleLog>& s
 
 }  // namespace
 
-std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const ParameterSpace& space,
-                                             const std::vector<JointFit>& fits) {
-  const std::vector<SingleLog> singles = fit_single_logs(torque, space, fits);
+std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const std::vector<JointFit>& fits) {
+  const ParameterSpace& space = torque.space;
+  const std::vector<SingleLog> singles = fit_single_logs(torque, fits);
   if (singles.empty()) return {};
   const auto alike = autocovariances(singles, torque.system.joints);
   std::vector<ParameterTrend> trends(space.linear());

@@ -1,37 +1,63 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
-#include "lib/identify/weak_form/weak_moments.hpp"
+#include "lib/identify/weak_form/weak_system.hpp"
 
 namespace faultline {
 
 /// Of the largest torque of joints of the same kind: zero mass would best explain a joint with less.
 inline constexpr double kUndrivenShare = 0.05;
 
-/// Judges choices of windows, shifts, widths and terms by their torque residual, held out and over all folds.
+/// Mean squared torque residual of every joint in each fold, with a fit to the other folds.
+struct HeldOutError {
+  Eigen::MatrixXd square;  ///< folds x joints, (N m)^2 or N^2
+  Eigen::MatrixXd rows;    ///< folds x joints: number of windows in the mean
+  Eigen::MatrixXd torque;  ///< folds x joints: mean square torque in them
+  Eigen::VectorXd rms() const;
+};
+
+/// Judges choices of windows, shifts, widths and terms by their torque residual, held out and over all folds,
+/// from second moments of the windows' balances by fold: a fit for any choice then needs one solution,
+/// without the windows.
 class Chooser {
  public:
-  /// The three must outlive it; parameters that a fit does not estimate stay at `start`.
-  Chooser(const WeakMoments& moments, const ParameterSpace& space, const Eigen::VectorXd& start)
-      : moments_(moments), space_(space), start_(start) {}
+  /// `phi` is the torque timing between samples while shifts are compared. Parameters that a fit does not
+  /// estimate stay at `start`. The space of the windows and `start` must outlive it.
+  Chooser(const WeakSets& windows, double phi, const Eigen::VectorXd& start);
+
+  const ParameterSpace& space() const { return space_; }
+  const ShiftRange& shifts() const { return shifts_; }
+  int folds() const { return folds_; }
+  /// Whether every fold is one log, in their order.
+  bool folds_are_logs() const { return folds_are_logs_; }
+  /// Returns the set of windows that usually judges choices.
+  int yardstick() const { return yardstick_; }
 
   /// Returns the residual of every joint, N m or N, by which residuals are weighted: bounded below so that no
   /// joint decides alone, since an almost undriven joint is explained best by zero mass.
   Eigen::VectorXd scale(const WeakChoice& choice, const std::vector<bool>& wanted) const;
   /// Returns the rms torque of every joint in the windows that judge choices.
   Eigen::VectorXd torque(const WeakChoice& choice) const;
+  /// Returns the standard deviation of every joint's torque in these windows.
+  Eigen::VectorXd torque_std(const WeakChoice& choice) const;
+  /// Returns the fit to all folds; joint j weighs 1 / scale_j^2.
   Eigen::VectorXd fit(const WeakChoice& choice, const std::vector<bool>& wanted,
                       const Eigen::VectorXd& scale) const;
+  /// Returns the fit to one fold alone.
+  Eigen::VectorXd fit_one(const WeakChoice& choice, const std::vector<bool>& wanted,
+                          const Eigen::VectorXd& scale, int fold) const;
+  /// Returns the residual of each fold with fits to the other folds, on the windows that judge choices.
   HeldOutError error(const WeakChoice& choice, const std::vector<bool>& wanted,
                      const Eigen::VectorXd& scale) const {
-    return moments_.held_out(choice, wanted, start_, scale, moments_.yardstick());
+    return held_out(choice, wanted, scale, yardstick_);
   }
   /// The same, judged by the shortest windows: for terms that are too fast for the others.
   HeldOutError quick_error(const WeakChoice& choice, const std::vector<bool>& wanted,
                            const Eigen::VectorXd& scale) const {
-    return moments_.held_out(choice, wanted, start_, scale, 0);
+    return held_out(choice, wanted, scale, 0);
   }
   /// The same in the choice's own scale.
   HeldOutError error(const WeakChoice& choice, const std::vector<bool>& wanted) const {
@@ -44,13 +70,38 @@ class Chooser {
   /// Returns the summed squared residual of all joints, each in its scale.
   double left(const WeakChoice& choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale) const;
   /// Returns the shift of joint `j` with the smallest such sum.
-  int best_shift(WeakChoice choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale, int j,
-                 const ShiftRange& shifts) const;
+  int best_shift(WeakChoice choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale,
+                 int j) const;
 
  private:
-  const WeakMoments& moments_;
+  /// Moments of one joint's rows: base, viscous, offset, skew, Coulomb of every width, its extra terms,
+  /// torque of every shift.
+  struct Moments {
+    Eigen::MatrixXd sum;
+    double rows = 0.0;
+  };
+
+  const Moments& at(int set, int fold, int joint) const {
+    return moments_[(set * folds_ + fold) * joints_ + joint];
+  }
+  std::vector<int> columns(const WeakChoice& choice, int joint) const;
+  std::vector<int> parameters_of(int joint) const;
+  int torque_begin(int joint) const;
+  Eigen::VectorXd fit_folds(const WeakChoice& choice, const std::vector<bool>& wanted,
+                            const Eigen::VectorXd& scale, const std::vector<bool>& used) const;
+  double squared_residual(const Moments& m, const WeakChoice& choice, const Eigen::VectorXd& parameters,
+                          int joint) const;
+  Eigen::VectorXd residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const;
+  HeldOutError held_out(const WeakChoice& choice, const std::vector<bool>& wanted,
+                        const Eigen::VectorXd& scale, int judge) const;
+
   const ParameterSpace& space_;
   const Eigen::VectorXd& start_;
+  ShiftRange shifts_;
+  int folds_ = 0, joints_ = 0, yardstick_ = 0;
+  bool folds_are_logs_ = false;
+  std::vector<std::vector<int>> extra_;  ///< by joint: the extra terms that act on it
+  std::vector<Moments> moments_;
 };
 
 /// Mean and standard error, over the folds, of the logarithm by which a joint's squared residual shrinks:

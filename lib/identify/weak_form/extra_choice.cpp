@@ -87,12 +87,12 @@ TermGroup judged(const Chooser& chooser, const ModelChoice& c, TermGroup group) 
 
 /// Whether the fit of a group of a single term is physically possible; of larger groups, single terms may
 /// vanish.
-bool can_be(const Chooser& chooser, const ParameterSpace& space, const ModelChoice& c,
-            const TermGroup& group) {
+bool can_be(const Chooser& chooser, const ModelChoice& c, const TermGroup& group) {
   if (group.parameters.size() > 1) return true;
   const std::vector<bool> wanted = with_group(c.wanted, group);
   const int p = group.parameters.front();
-  return is_possible(space.extra_at(p).kind, chooser.fit(c.weak, wanted, chooser.scale(c.weak, wanted))[p]);
+  return is_possible(chooser.space().extra_at(p).kind,
+                     chooser.fit(c.weak, wanted, chooser.scale(c.weak, wanted))[p]);
 }
 
 /// Returns the squared residual of all joints, each in its scale, if joint `j` has that gain.
@@ -118,8 +118,8 @@ double best_gain(const Chooser& chooser, const ModelChoice& c, int j) {
 
 }  // namespace
 
-ModelChoice choose_extra(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
-                         ModelChoice c) {
+ModelChoice choose_extra(const Chooser& chooser, const std::vector<bool>& asked, ModelChoice c) {
+  const ParameterSpace& space = chooser.space();
   std::vector<TermGroup> groups = groups_of(space, asked);
   for (TermGroup& group : groups) group = judged(chooser, c, std::move(group));
   std::stable_sort(groups.begin(), groups.end(),
@@ -131,7 +131,7 @@ ModelChoice choose_extra(const Chooser& chooser, const ParameterSpace& space, co
     bool kept = pays(group.without, group.with, j, chooser.torque(c.weak)[j], group.worth);
     for (const int other : group.joints)
       kept = kept && !pays(group.with, group.without, other, chooser.torque(c.weak)[other], group.worth);
-    kept = kept && can_be(chooser, space, c, group);
+    kept = kept && can_be(chooser, c, group);
     const ExtraKind kind = space.extra_at(group.parameters.front()).kind;
     const bool many = is_ripple(kind) || is_of_shared_drive(kind);
     c.terms.push_back({space.name(group.parameters.front()), j, kept, group.without.rms()[j],

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/identify/weak_form/chooser.hpp"
 #include "lib/identify/weak_form/extra_choice.hpp"
 
 namespace faultline {
@@ -26,14 +25,14 @@ constexpr double kFarWidth = 4.0;        // times wider or sharper than the best
 constexpr int kShiftSweeps = 3;          // over the joints at most, each with the delays of the others
 constexpr double kBendsApart = 10.0;     // times the width of the Coulomb friction, at least
 
-/// Returns the best common shift of all joints: most logs have one delay for all.
-WeakChoice common_shift(const Chooser& chooser, const ShiftRange& shifts, int joints,
-                        const std::vector<bool>& wanted, WeakChoice choice) {
-  choice.shift.assign(joints, 0);
+/// Returns the choice, which has no shifts, with the best common shift of all joints: most logs have one
+/// delay for all.
+WeakChoice common_shift(const Chooser& chooser, const std::vector<bool>& wanted, WeakChoice choice) {
+  const int joints = chooser.space().joints();
   const Eigen::VectorXd scale = chooser.scale(choice, wanted);
   WeakChoice best = choice;
   double least = chooser.left(choice, wanted, scale);
-  for (int s = shifts.first + 1; s <= shifts.last; ++s) {
+  for (int s = chooser.shifts().first + 1; s <= chooser.shifts().last; ++s) {
     choice.shift.assign(joints, s);
     const double left = chooser.left(choice, wanted, scale);
     if (left < least) least = left, best = choice;
@@ -43,17 +42,14 @@ WeakChoice common_shift(const Chooser& chooser, const ShiftRange& shifts, int jo
 
 /// Chooses the shifts with the other choices given: one for all joints if it lowers the error of any and
 /// raises that of none, then those of single joints that lower their error.
-ModelChoice choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int joints,
-                          const std::vector<bool>& wanted, ModelChoice c) {
+ModelChoice choose_shifts(const Chooser& chooser, const std::vector<bool>& wanted, ModelChoice c) {
+  const int joints = chooser.space().joints();
   const Eigen::VectorXd torque = chooser.torque(c.weak);
-  const auto error_of = [&](const WeakChoice& w) {
-    return chooser.error(w, wanted, chooser.scale(w, wanted));
-  };
   WeakChoice none = c.weak;
   none.shift.assign(joints, 0);
-  const HeldOutError without = error_of(none);
-  WeakChoice settled = common_shift(chooser, shifts, joints, wanted, none);
-  HeldOutError best = error_of(settled);
+  const HeldOutError without = chooser.error(none, wanted);
+  WeakChoice settled = common_shift(chooser, wanted, none);
+  HeldOutError best = chooser.error(settled, wanted);
   bool helps = false, harms = false;
   for (int j = 0; j < joints; ++j) {
     helps = helps || pays(without, best, j, torque[j], kShift);
@@ -64,10 +60,10 @@ ModelChoice choose_shifts(const Chooser& chooser, const ShiftRange& shifts, int 
   for (int sweep = 0; sweep < kShiftSweeps; ++sweep) {
     const WeakChoice before = single;
     const Eigen::VectorXd scale = chooser.scale(single, wanted);
-    for (int j = 0; j < joints; ++j) single.shift[j] = chooser.best_shift(single, wanted, scale, j, shifts);
+    for (int j = 0; j < joints; ++j) single.shift[j] = chooser.best_shift(single, wanted, scale, j);
     if (single.shift == before.shift) break;
   }
-  const HeldOutError with = error_of(single);
+  const HeldOutError with = chooser.error(single, wanted);
   std::erase_if(c.terms, [](const ModelTerm& term) { return term.kind == TermKind::delay; });
   for (int j = 0; j < joints; ++j) {
     const bool own = single.shift[j] != settled.shift[j] && pays(best, with, j, torque[j], kOwnShift) &&
@@ -87,11 +83,11 @@ std::vector<bool> plain(const ParameterSpace& space, std::vector<bool> wanted) {
 }
 
 /// Adds bent friction, of the width with the smallest residual of its joint, if it lowers the held-out error.
-ModelChoice choose_bends(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
-                         ModelChoice c) {
+ModelChoice choose_bends(const Chooser& chooser, const std::vector<bool>& asked, ModelChoice c) {
+  const ParameterSpace& space = chooser.space();
   for (int j = 0; j < space.joints(); ++j) {
     if (!asked[space.bend(j)]) continue;
-    const HeldOutError without = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
+    const HeldOutError without = chooser.error(c.weak, c.wanted);
     std::vector<bool> wanted = c.wanted;
     wanted[space.bend(j)] = true;
     HeldOutError best = without;
@@ -100,7 +96,7 @@ ModelChoice choose_bends(const Chooser& chooser, const ParameterSpace& space, co
       if (weak_width(space, j, k) < kBendsApart * weak_width(space, j, c.weak.width[j])) continue;
       WeakChoice tried = c.weak;
       tried.bend[j] = k;
-      const HeldOutError with = chooser.error(tried, wanted, chooser.scale(tried, wanted));
+      const HeldOutError with = chooser.error(tried, wanted);
       if (with.rms()[j] < best.rms()[j]) best = with, bent = tried;
     }
     const bool kept = pays(without, best, j, chooser.torque(c.weak)[j], kRare);
@@ -112,14 +108,14 @@ ModelChoice choose_bends(const Chooser& chooser, const ParameterSpace& space, co
   return c;
 }
 
-ModelChoice choose_widths(const Chooser& chooser, int joints, ModelChoice c) {
+ModelChoice choose_widths(const Chooser& chooser, ModelChoice c) {
   const Eigen::VectorXd torque = chooser.torque(c.weak);
-  for (int j = 0; j < joints; ++j) {
-    HeldOutError best = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
+  for (int j = 0; j < chooser.space().joints(); ++j) {
+    HeldOutError best = chooser.error(c.weak, c.wanted);
     for (int k = 1; k < kCoulombWidths; ++k) {
       WeakChoice tried = c.weak;
       tried.width[j] = k;
-      const HeldOutError error = chooser.error(tried, c.wanted, chooser.scale(tried, c.wanted));
+      const HeldOutError error = chooser.error(tried, c.wanted);
       if (!pays(best, error, j, torque[j], kWidth)) continue;
       best = error;
       c.weak = tried;
@@ -130,8 +126,8 @@ ModelChoice choose_widths(const Chooser& chooser, int joints, ModelChoice c) {
 
 /// Returns the covariance of the parameters from friction widths that held-out data do not distinguish from
 /// the chosen one: mean square of the change of the fit over those widths.
-Eigen::MatrixXd width_covariance(const Chooser& chooser, const ParameterSpace& space, const ModelChoice& c,
-                                 const Eigen::VectorXd& scale) {
+Eigen::MatrixXd width_covariance(const Chooser& chooser, const ModelChoice& c, const Eigen::VectorXd& scale) {
+  const ParameterSpace& space = chooser.space();
   Eigen::MatrixXd doubt = Eigen::MatrixXd::Zero(space.count(), space.count());
   const Eigen::VectorXd chosen = chooser.fit(c.weak, c.wanted, scale);
   for (int j = 0; j < space.joints(); ++j) {
@@ -153,14 +149,15 @@ Eigen::MatrixXd width_covariance(const Chooser& chooser, const ParameterSpace& s
   return doubt;
 }
 
-ModelChoice choose_terms(const Chooser& chooser, const ParameterSpace& space, const std::vector<bool>& asked,
-                         const std::vector<bool>& optional, ModelChoice c) {
+ModelChoice choose_terms(const Chooser& chooser, const WantedParameters& parameters, ModelChoice c) {
+  const ParameterSpace& space = chooser.space();
   for (int p = 0; p < space.extra_begin(); ++p) {
-    if (!asked[p] || !optional[p] || (p >= space.bend(0) && p < space.skew(0))) continue;
+    if (!parameters.asked[p] || !parameters.optional[p] || (p >= space.bend(0) && p < space.skew(0)))
+      continue;
     std::vector<bool> wanted = c.wanted;
     wanted[p] = true;
-    const HeldOutError without = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
-    const HeldOutError with = chooser.error(c.weak, wanted, chooser.scale(c.weak, wanted));
+    const HeldOutError without = chooser.error(c.weak, c.wanted);
+    const HeldOutError with = chooser.error(c.weak, wanted);
     const int j = space.joint_of(p);
     const bool kept = pays(without, with, j, chooser.torque(c.weak)[j], p >= space.bend(0) ? kRare : kTerm);
     c.terms.push_back({space.name(p), j, kept, without.rms()[j], with.rms()[j]});
@@ -177,10 +174,11 @@ bool loses(const HeldOutError& with, const HeldOutError& against, int j) {
 
 /// Joints share parameters: windows too short for the velocity noise of one joint spoil the fit of the
 /// others. Lengthens the shortest ones until no joint is worse than with equal windows.
-ModelChoice lengthen_windows(const Chooser& chooser, int joints, int alike, const HeldOutError& with_alike,
+ModelChoice lengthen_windows(const Chooser& chooser, int alike, const HeldOutError& with_alike,
                              ModelChoice c) {
+  const int joints = chooser.space().joints();
   for (;;) {
-    const HeldOutError mixed = chooser.error(c.weak, c.wanted, chooser.scale(c.weak, c.wanted));
+    const HeldOutError mixed = chooser.error(c.weak, c.wanted);
     bool spoilt = false;
     for (int j = 0; j < joints; ++j) spoilt = spoilt || loses(mixed, with_alike, j);
     if (!spoilt) return c;
@@ -198,13 +196,14 @@ double sum_of_log_residuals(const HeldOutError& error) {
   return error.rms().array().max(kNothing).unaryExpr(&elementary::log).sum();
 }
 
-ModelChoice choose_windows(const Chooser& chooser, int sets, int joints, ModelChoice c) {
+ModelChoice choose_windows(const Chooser& chooser, int sets, ModelChoice c) {
+  const int joints = chooser.space().joints();
   std::vector<HeldOutError> errors;
   int alike = 0;
   for (int set = 0; set < sets; ++set) {
     WeakChoice tried = c.weak;
     tried.set.assign(joints, set);
-    errors.push_back(chooser.error(tried, c.wanted, chooser.scale(tried, c.wanted)));
+    errors.push_back(chooser.error(tried, c.wanted));
     if (sum_of_log_residuals(errors[set]) < sum_of_log_residuals(errors[alike])) alike = set;
   }
   for (int j = 0; j < joints; ++j) {
@@ -215,42 +214,41 @@ ModelChoice choose_windows(const Chooser& chooser, int sets, int joints, ModelCh
     for (int set = best - 1; set >= 0; --set)
       if (!loses(errors[set], errors[best], j)) c.weak.set[j] = set;
   }
-  return lengthen_windows(chooser, joints, alike, errors[alike], std::move(c));
+  return lengthen_windows(chooser, alike, errors[alike], std::move(c));
 }
 
 }  // namespace
 
-ModelChoice choose_model(const WeakMoments& moments, const ParameterSpace& space,
-                         const Eigen::VectorXd& start, const std::vector<bool>& asked,
-                         const std::vector<bool>& optional, const ShiftRange& shifts, int sets) {
+ModelChoice choose_model(const WeakSets& windows, double phi, const Eigen::VectorXd& start,
+                         const WantedParameters& parameters) {
+  const ParameterSpace& space = windows.space;
+  const auto& [asked, optional] = parameters;
   const int n = space.joints();
-  const Chooser chooser(moments, space, start);
+  const Chooser chooser(windows, phi, start);
   ModelChoice c;
-  c.weak = {std::vector<int>(n, moments.yardstick()), std::vector<int>(n, 0), std::vector<int>(n, 0),
+  c.weak = {std::vector<int>(n, chooser.yardstick()), std::vector<int>(n, 0), std::vector<int>(n, 0),
             std::vector<int>(n, kWidths - 1)};
   for (std::size_t p = 0; p < asked.size(); ++p) c.wanted.push_back(asked[p] && !optional[p]);
-  c = choose_shifts(chooser, shifts, n, plain(space, asked), std::move(c));
-  c = choose_widths(chooser, n, std::move(c));
-  c = choose_terms(chooser, space, asked, optional, std::move(c));
-  c = choose_bends(chooser, space, asked, std::move(c));
+  c = choose_shifts(chooser, plain(space, asked), std::move(c));
+  c = choose_widths(chooser, std::move(c));
+  c = choose_terms(chooser, parameters, std::move(c));
+  c = choose_bends(chooser, asked, std::move(c));
   std::vector<bool> extra = asked;
   for (int p = space.extra_begin(); p < space.timing(); ++p) extra[p] = asked[p] && optional[p];
-  c = choose_extra(chooser, space, extra, std::move(c));
+  c = choose_extra(chooser, extra, std::move(c));
   const std::vector<bool> wanted = c.wanted;
-  c = choose_shifts(chooser, shifts, n, wanted, std::move(c));
-  c = choose_windows(chooser, sets, n, std::move(c));
+  c = choose_shifts(chooser, wanted, std::move(c));
+  c = choose_windows(chooser, static_cast<int>(windows.sets.size()), std::move(c));
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   c.held_out = chooser.error(c.weak, c.wanted, scale);
-  c.width_covariance = width_covariance(chooser, space, c, scale);
-  WeakChoice judged = c.weak;
-  judged.set.assign(n, moments.yardstick());
-  const Eigen::VectorXd rms = c.held_out.rms(), torque = moments.torque_std(judged);
+  c.width_covariance = width_covariance(chooser, c, scale);
+  const Eigen::VectorXd rms = c.held_out.rms(), torque = chooser.torque_std(c.weak);
   for (int j = 0; j < n; ++j)
     c.held_out_r2.push_back(torque[j] > 0.0 ? 1.0 - rms[j] * rms[j] / (torque[j] * torque[j]) : 0.0);
-  if (!moments.folds_are_logs()) return c;
-  c.spread.resize(space.count(), moments.folds());
-  for (int fold = 0; fold < moments.folds(); ++fold)
-    c.spread.col(fold) = moments.fit_one(c.weak, c.wanted, start, scale, fold);
+  if (!chooser.folds_are_logs()) return c;
+  c.spread.resize(space.count(), chooser.folds());
+  for (int fold = 0; fold < chooser.folds(); ++fold)
+    c.spread.col(fold) = chooser.fit_one(c.weak, c.wanted, scale, fold);
   return c;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/identify/identification.hpp"
-#include "lib/identify/weak_form/weak_moments.hpp"
+#include "lib/identify/weak_form/chooser.hpp"
 
 namespace faultline {
 
@@ -21,9 +21,8 @@ struct ModelChoice {
 
 /// Chooses by cross-validation, joint by joint: the torque's shift, friction width, friction offset, rotor
 /// inertia and rarer terms, then the shortest window within one standard error of the best (Breiman et al.
-/// 1984). `asked`: parameters that may be free; `optional`: those that must lower the error.
-ModelChoice choose_model(const WeakMoments& moments, const ParameterSpace& space,
-                         const Eigen::VectorXd& start, const std::vector<bool>& asked,
-                         const std::vector<bool>& optional, const ShiftRange& shifts, int sets);
+/// 1984). `phi` and `start` are those of Chooser.
+ModelChoice choose_model(const WeakSets& windows, double phi, const Eigen::VectorXd& start,
+                         const WantedParameters& parameters);
 
 }  // namespace faultline

@@ -14,6 +14,7 @@ namespace faultline {
 namespace {
 
 constexpr double kResting = 0.03;  // of the speed of a joint's fastest window: below, the joint rests
+constexpr double kShown = 1e-6;    // of a squared column: least share from moving joints
 
 /// Returns the number of seconds of the logs in which a window begins.
 double seconds_covered(const WeakWindows& windows) {
@@ -26,7 +27,7 @@ double seconds_covered(const WeakWindows& windows) {
 
 std::vector<bool> moving_windows(const WeakSets& windows, int set, int joint) {
   const std::vector<WeakWindow>& all = windows.sets[set].all();
-  if (!windows.still.empty() && windows.still[joint]) return std::vector<bool>(all.size(), false);
+  if (has_joint(windows.still, joint)) return std::vector<bool>(all.size(), false);
   double fastest = 0.0;
   for (const WeakWindow& w : all) fastest = std::max(fastest, w.speed[joint]);
   std::vector<bool> moving;
@@ -74,6 +75,16 @@ WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice) {
   }
   s.blocks = static_cast<int>(blocks.size());
   return s;
+}
+
+bool is_shown_at_rest(const WeakSystem& system, int p, const std::vector<int>& still) {
+  double all = 0.0, moving = 0.0;
+  for (Eigen::Index k = 0; k < system.a.rows(); ++k) {
+    const double square = system.a(k, p) * system.a(k, p);
+    all += square;
+    if (!has_joint(still, system.joint[k])) moving += square;
+  }
+  return moving <= kShown * all;
 }
 
 }  // namespace faultline

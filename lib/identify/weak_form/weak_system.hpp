@@ -35,4 +35,7 @@ WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice);
 /// Returns, by window of the set, whether joint `j` moves enough to distinguish its friction from stiction.
 std::vector<bool> moving_windows(const WeakSets& windows, int set, int joint);
 
+/// Whether only the `still` joints, from 1, have entries in column `p` of the system, up to noise.
+bool is_shown_at_rest(const WeakSystem& system, int p, const std::vector<int>& still);
+
 }  // namespace faultline

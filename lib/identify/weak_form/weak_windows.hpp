@@ -103,8 +103,8 @@ struct WeakSets {
   ShiftRange shifts;
   std::vector<WeakWindows> sets;
   ExtraSetting extra;  ///< setting of the columns of the extra terms of `space`
-  /// By joint: it never moves, so stiction may carry any torque and its balances do not count. Empty: none.
-  std::vector<bool> still;
+  /// Joints, from 1, that never move: stiction may carry any torque, so their balances do not count.
+  std::vector<int> still;
 
   void add(const Stretch& stretch);
 };

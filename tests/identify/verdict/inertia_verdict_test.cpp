@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/verdict/inertia_verdict.hpp"
+#include "lib/identify/verdict/fit_verdict.hpp"
 
 #include <gtest/gtest.h>
 
