@@ -11,7 +11,6 @@
 #include "lib/identify/extra/find_ripples.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/identify/parameter_space.hpp"
-#include "lib/identify/weak_form/extra_choice.hpp"
 
 namespace faultline {
 namespace {

@@ -27,7 +27,9 @@ namespace faultline {
 namespace {
 
 constexpr double kGood = 0.97;  // least explained share of a joint's torque: below, other columns are tried
-constexpr double kWorthShooting = 0.95;  // of every joint's torque: below, the motion is not fitted
+constexpr double kShortestWindow_s = 0.04;  // of the weak form; at least one sample
+constexpr int kMostWindows = 6000;          // that the weak form keeps, spread over all logs
+constexpr double kWorthShooting = 0.95;     // of every joint's torque: below, the motion is not fitted
 
 constexpr int kFewestLogs = 3;         // if two logs disagree, neither is the odd one
 constexpr double kOutlierRatio = 4.0;  // times the residual of the other logs, in rms and as a share,
@@ -50,21 +52,16 @@ Identification with_values(IdentifyMethod method, FitStatus status, const Eigen:
   return id;
 }
 
-/// Returns the parameters with friction at least as wide as in the robot file: sharp friction suits the
-/// regression, not simulation.
-Eigen::VectorXd with_smooth_friction(const Eigen::VectorXd& nominal, const ParameterSpace& space,
-                                     Eigen::VectorXd parameters) {
-  for (int j = 0; j < space.joints(); ++j)
-    parameters[space.log_width(j)] = std::max(parameters[space.log_width(j)], nominal[space.log_width(j)]);
-  return parameters;
-}
-
-/// Returns the space with the friction of shared drives at least as wide as in the robot file.
-ParameterSpace with_smooth_drives(const Eigen::VectorXd& nominal, ParameterSpace space) {
-  for (int j = 0; j < space.joints(); ++j)
-    for (SharedDrive& f : space.chain.shared_drives)
-      if (f.along[j] != 0.0) f.width = std::max(f.width, elementary::exp(nominal[space.log_width(j)]));
-  return space;
+/// Returns the identification with friction at least as wide as in the robot file, that of shared drives,
+/// too: sharp friction suits the regression, not simulation.
+Identification with_smooth_friction(const Eigen::VectorXd& nominal, Identification id) {
+  for (int j = 0; j < id.space.joints(); ++j) {
+    const int width = id.space.log_width(j);
+    id.estimate[width] = std::max(id.estimate[width], nominal[width]);
+    for (SharedDrive& f : id.space.chain.shared_drives)
+      if (f.along[j] != 0.0) f.width = std::max(f.width, elementary::exp(nominal[width]));
+  }
+  return id;
 }
 
 /// Returns the logs, from 0, whose residual with a fit to the others is far larger than that of the others:
@@ -94,28 +91,19 @@ std::vector<int> outlier_logs(const ModelChoice& choice) {
   return odd;
 }
 
-/// A log, from 0, that repeats an earlier one byte for byte.
-struct RepeatedLog {
-  int log = 0, earlier = 0;
-};
-
-std::vector<RepeatedLog> repeated_logs(const std::vector<IdentifiedLog>& logs) {
-  std::vector<RepeatedLog> repeated;
-  std::vector<bool> repeats(logs.size(), false);
-  for (std::size_t i = 0; i < logs.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) {
-      if (logs[i].sha256.empty() || logs[i].sha256 != logs[k].sha256 || repeats[k]) continue;
-      repeated.push_back({static_cast<int>(i), static_cast<int>(k)});
-      repeats[i] = true;
-      break;
-    }
+/// Returns the logs, from 0, that repeat an earlier one byte for byte; adds an issue for each.
+std::vector<int> repeated_logs(const std::vector<IdentifiedLog>& logs, Issues& issues) {
+  std::vector<int> repeated;
+  for (auto log = logs.begin(); log != logs.end(); ++log) {
+    const auto earlier = std::find_if(
+        logs.begin(), log, [&](const IdentifiedLog& other) { return other.sha256 == log->sha256; });
+    if (log->sha256.empty() || earlier == log) continue;
+    repeated.push_back(static_cast<int>(log - logs.begin()));
+    issues.add(make_issue(
+        fmt::format("repeated_log_{}", repeated.back() + 1), Severity::warning,
+        fmt::format("{} is identical to {}, byte for byte; it was left out", log->path, earlier->path)));
+  }
   return repeated;
-}
-
-Issue repeated_issue(const RepeatedLog& repeated, const std::vector<IdentifiedLog>& logs) {
-  return make_issue(fmt::format("repeated_log_{}", repeated.log + 1), Severity::warning,
-                    fmt::format("{} is identical to {}, byte for byte; it was left out",
-                                logs[repeated.log].path, logs[repeated.earlier].path));
 }
 
 Issue outlier_issue(int log, const std::string& path, bool kept) {
@@ -171,7 +159,7 @@ Identification with_settled_method(std::span<LogSource* const> logs, const Draft
   const TorqueFit& torque = model.draft.torque;
   const Eigen::VectorXd& nominal = model.draft.nominal;
   const std::vector<int>& still = model.gathered.windows.still;
-  const bool has_dq = model.gathered.measurements.has_dq();
+  const bool has_dq = model.gathered.measurements.has_dq(), all_move = still.empty();  // else M is unknown
   double worst = 1.0;
   for (int j = 0; j < id.space.joints(); ++j)
     if (!has_joint(still, j)) worst = std::min(worst, torque.fit.r2[j]);
@@ -185,8 +173,7 @@ Identification with_settled_method(std::span<LogSource* const> logs, const Draft
     id.issues.add(make_issue("gear_compliance", Severity::note,
                              "a gear is elastic: values and intervals come from the momentum balance, the "
                              "motion with rigid gears was not fitted"));
-  } else if (options.method != IdentifyMethod::weak_form &&
-             still.empty()) {  // with still joints M is unknown
+  } else if (options.method != IdentifyMethod::weak_form && all_move) {
     TorqueFit start = torque;
     for (int j = 0; j < id.space.joints(); ++j)
       start.fit.parameters[id.space.log_width(j)] = nominal[id.space.log_width(j)];
@@ -228,34 +215,22 @@ std::vector<ModelTerm> settled_terms(const ModelDraft& draft) {
   return terms;
 }
 
-/// A model chosen from the logs, and what was noticed about them.
-struct ChosenModel {
-  DraftedModel model;
-  std::vector<Issue> issues;
-};
-
 /// Chooses the model from the logs and fits its torque; logs that repeat or contradict others are left out.
-ChosenModel draft_model(std::span<LogSource* const> logs, Gathered gathered, const IdentifyOptions& options,
-                        const Identification& id) {
+/// `issues` get what was noticed about the logs.
+DraftedModel draft_model(std::span<LogSource* const> logs, Gathered gathered, const IdentifyOptions& options,
+                         const Identification& id, Issues& issues) {
   ModelDraft draft;
-  std::vector<Issue> issues;
   draft.nominal = parameters_of(id.space, id.robot.chain, nominal_timing(id.robot));
-  draft.wanted = wanted_parameters(id.space, id.robot, gathered.windows.still,
-                                   options.estimate_offset && has_fast_log(id));
+  draft.wanted = wanted_parameters(id.space, id.robot, gathered.windows.still, has_fast_log(id));
   for (int p = id.space.bend(0); p < id.space.timing(); ++p)
     if (draft.wanted.asked[p]) draft.nominal[p] = 0.0;
   const auto choose = [&] {
     return choose_model(gathered.windows, nominal_timing(id.robot), draft.nominal, draft.wanted);
   };
-  std::vector<int> left_out;
-  for (const RepeatedLog& repeated : repeated_logs(id.logs)) {
-    left_out.push_back(repeated.log);
-    issues.push_back(repeated_issue(repeated, id.logs));
-  }
-  gathered.leave_out(left_out);
+  gathered.leave_out(repeated_logs(id.logs, issues));
   draft.choice = choose();
   if (const std::vector<int> odd = outlier_logs(draft.choice); !odd.empty()) {
-    for (const int log : odd) issues.push_back(outlier_issue(log, id.logs[log].path, options.keep_all));
+    for (const int log : odd) issues.add(outlier_issue(log, id.logs[log].path, options.keep_all));
     if (!options.keep_all) {
       gathered.leave_out(odd);
       draft.choice = choose();
@@ -266,24 +241,23 @@ ChosenModel draft_model(std::span<LogSource* const> logs, Gathered gathered, con
   model.draft.choice.weak.shift = model.draft.torque.shift;
   model.draft.choice.terms = settled_terms(model.draft);
   if (const std::string& why = model.draft.torque.why_infeasible; !why.empty())
-    issues.push_back(make_issue("infeasible", Severity::warning,
-                                why + ", which is infeasible; the nearest feasible robot was used instead: "
-                                      "these logs do not determine values next to that bound"));
-  return {std::move(model), std::move(issues)};
+    issues.add(make_issue("infeasible", Severity::warning,
+                          why + ", which is infeasible; the nearest feasible robot was used instead: "
+                                "these logs do not determine values next to that bound"));
+  return model;
 }
 
-std::vector<Issue> gain_issues(const std::vector<double>& gain) {
-  std::vector<Issue> issues;
+/// Adds an issue for each joint whose logged torque is too large or too small.
+void add_gain_issues(const std::vector<double>& gain, Issues& issues) {
   for (std::size_t j = 0; j < gain.size(); ++j) {
     if (gain[j] == 1.0) continue;
-    issues.push_back(make_issue(
+    issues.add(make_issue(
         fmt::format("torque_gain_{}", j + 1), Severity::warning,
         fmt::format("the torque of joint {} is {:.3f} times the value in its column, according to the "
                     "masses that it shares with the joints before: check its unit, torque constant and "
                     "gear ratio. The identified robot applies this factor (torque_gain)",
                     j + 1, gain[j])));
   }
-  return issues;
 }
 
 /// Returns the robot with what is not in the equations of motion: the torque gains of the log and the
@@ -313,20 +287,19 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   Identification& id = fit.id;
   id.robot = robot;
   id.space = parameter_space(robot);
-  GatheredLogs read = gather(logs, id.space, options.window_s, options.max_windows, progress);
+  GatheredLogs read = gather(logs, id.space, kShortestWindow_s, kMostWindows, progress);
   id.logs = std::move(read.logs);
   id.issues = std::move(read.issues);
-  ChosenModel chosen = draft_model(logs, std::move(read.gathered), options, id);
-  const Gathered& gathered = chosen.model.gathered;
+  DraftedModel model = draft_model(logs, std::move(read.gathered), options, id, id.issues);
+  const Gathered& gathered = model.gathered;
   const std::vector<int>& still = gathered.windows.still;
-  const ModelDraft& draft = chosen.model.draft;
-  TorqueFit& torque = chosen.model.draft.torque;
+  const ModelDraft& draft = model.draft;
+  TorqueFit& torque = model.draft.torque;
   id.space = torque.space;
   for (std::size_t i = 0; i < id.logs.size(); ++i) id.logs[i].left_out = gathered.left_out[i];
-  for (Issue& issue : chosen.issues) id.issues.add(std::move(issue));
-  id = with_settled_method(logs, chosen.model, options, progress, std::move(id));
+  id = with_settled_method(logs, model, options, progress, std::move(id));
   id.robot = with_drives(std::move(id.robot), gathered.torque_gain, torque);
-  for (Issue& issue : gain_issues(gathered.torque_gain)) id.issues.add(std::move(issue));
+  add_gain_issues(gathered.torque_gain, id.issues);
 
   const std::vector<int> undriven = undriven_joints(torque);
   const Confounded confounded = confounded_parameters(robot, still, undriven, torque);
@@ -337,18 +310,15 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   id = with_verdict(torque, draft.choice, gathered, undriven, std::move(id));
   const bool is_infeasible = !torque.why_infeasible.empty();
   id = with_judged_columns(logs, gathered, is_infeasible, std::move(id));
-  if (id.method == IdentifyMethod::weak_form) {
-    id.estimate = with_smooth_friction(draft.nominal, id.space, std::move(id.estimate));
-    id.space = with_smooth_drives(draft.nominal, std::move(id.space));
-  }
-  id.base_parameters = base_parameter_table(
-      torque.fit, {torque.wanted, still, undriven, confounded.leaning, has_fast_log(id)}, id);
+  if (id.method == IdentifyMethod::weak_form) id = with_smooth_friction(draft.nominal, std::move(id));
+  const TableFacts facts{torque.wanted, still, undriven, confounded.leaning};
+  id.base_parameters = base_parameter_table(torque.fit, facts, id);
   using Status = IdentificationStatus;
   if (is_infeasible && id.status == Status::converged)
     id.take(
         FitStatus{Status::poorly_excited, "the best fit is infeasible: no real robot has these parameters"});
   if (!all_identifiable(id) && id.status == Status::converged)
-    id.take(FitStatus{Status::poorly_excited, why_not_identifiable(still, undriven, confounded.leaning)});
+    id.take(FitStatus{Status::poorly_excited, why_not_identifiable(facts)});
   for (int p = 0; p < id.space.rigid(); ++p)
     fit.usable.push_back(torque.fit.free[p] && !torque.fit.confounded[p]);
   return fit;

@@ -36,17 +36,13 @@ void visit_stretches(std::span<LogSource* const> logs, const Gathered& gathered,
   const int stride = stretch_stride(gathered.surveys), joints = gathered.windows.space.joints();
   const std::vector<double>& gain = gathered.torque_gain;
   const auto visit_true = [&](const Stretch& s) {
+    if (gain.empty()) return visit(s);
     Stretch scaled = s;
     for (int j = 0; j < joints; ++j) scaled.tau.row(j) *= gain[j];
     visit(scaled);
   };
-  for (std::size_t i = 0; i < logs.size(); ++i) {
-    const LogSurvey& survey = gathered.surveys[i];
-    if (gain.empty())
-      for_each_stretch(*logs[i], static_cast<int>(i), joints, survey, stride, visit);
-    else
-      for_each_stretch(*logs[i], static_cast<int>(i), joints, survey, stride, visit_true);
-  }
+  for (std::size_t i = 0; i < logs.size(); ++i)
+    for_each_stretch(*logs[i], static_cast<int>(i), joints, gathered.surveys[i], stride, visit_true);
 }
 
 /// Returns the stretch with the torque of joint j delayed by `shift` rows; rows without one are dropped.

@@ -8,7 +8,6 @@
 #include "lib/core/issue.hpp"
 #include "lib/core/progress.hpp"
 #include "lib/identify/identification.hpp"
-#include "lib/identify/motion/excerpt.hpp"
 #include "lib/identify/motion/log_survey.hpp"
 #include "lib/identify/motion/stretch.hpp"
 #include "lib/identify/weak_form/weak_windows.hpp"

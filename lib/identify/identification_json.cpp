@@ -53,16 +53,14 @@ Enum enum_from(const std::string& name, std::initializer_list<Enum> all, const s
 }
 
 IdentificationStatus status_from(const std::string& name, const std::string& where) {
-  using Status = IdentificationStatus;
-  return enum_from(name,
-                   {Status::not_run, Status::converged, Status::not_converged, Status::poorly_excited,
-                    Status::poorly_explained, Status::unexplained},
+  using enum IdentificationStatus;
+  return enum_from(name, {not_run, converged, not_converged, poorly_excited, poorly_explained, unexplained},
                    where);
 }
 
 IdentifyMethod method_from(const std::string& name, const std::string& where) {
-  using Method = IdentifyMethod;
-  return enum_from(name, {Method::automatic, Method::weak_form, Method::output_error}, where);
+  using enum IdentifyMethod;
+  return enum_from(name, {automatic, weak_form, output_error}, where);
 }
 
 /// The parameters in the file, which belong to the robot in it.
@@ -199,9 +197,11 @@ void verdict_fields(auto& v, MaybeConst<Identification> auto& id) {
   v("trend", id.trends);
 }
 
-void write_summary(FieldWriter<Json>& writer, const Identification& id) {
+FieldWriter<Json> written_summary(const Identification& id) {
+  FieldWriter<Json> writer;
   writer("schema", kSchema);
   fields(writer, id);
+  return writer;
 }
 
 State state_of(const Identification& id) {
@@ -226,25 +226,17 @@ void restore(const State& state, const std::string& where, Identification& id) {
   id.covariance = Eigen::Map<const Eigen::MatrixXd>(state.covariance.data(), n, n);
 }
 
-Identification read_summary(const Json& document, const std::string& where) {
-  return fields_from_json<Identification>(document, where);
-}
-
-Identification read(const Json& document, const std::string& where) {
-  Identification id = read_summary(document, where);
-  FieldReader<Json> reader(document, where);
-  verdict_fields(reader, id);
-  restore(fields_from_json<State>(document.at("state"), where), where, id);
-  return id;
-}
-
-template <typename Read>
-Identification checked(const Json& document, const std::string& where, Read read_document) {
+Identification read(const Json& document, const std::string& where, bool is_summary) {
   if (!document.is_object() || document.value("schema", "") != kSchema)
     throw Error(ErrorCode::input, where,
                 fmt::format("is not an identification of schema {}; identify again", kSchema));
   try {
-    return read_document(document, where);
+    auto id = fields_from_json<Identification>(document, where);
+    if (is_summary) return id;
+    FieldReader<Json> reader(document, where);
+    verdict_fields(reader, id);
+    restore(fields_from_json<State>(document.at("state"), where), where, id);
+    return id;
   } catch (const nlohmann::json::exception& e) {
     throw Error(ErrorCode::input, where, fmt::format("is incomplete ({}); identify again", e.what()));
   }
@@ -252,26 +244,21 @@ Identification checked(const Json& document, const std::string& where, Read read
 
 }  // namespace
 
-nlohmann::ordered_json summary_to_json(const Identification& id) {
-  FieldWriter<Json> writer;
-  write_summary(writer, id);
-  return writer.json();
-}
+nlohmann::ordered_json summary_to_json(const Identification& id) { return written_summary(id).json(); }
 
 nlohmann::ordered_json to_json(const Identification& id) {
-  FieldWriter<Json> writer;
-  write_summary(writer, id);
+  FieldWriter<Json> writer = written_summary(id);
   verdict_fields(writer, id);
   writer("state", state_of(id));
   return writer.json();
 }
 
 Identification identification_from_json(const nlohmann::ordered_json& document, const std::string& where) {
-  return checked(document, where, read);
+  return read(document, where, false);
 }
 
 Identification summary_from_json(const nlohmann::ordered_json& document, const std::string& where) {
-  return checked(document, where, read_summary);
+  return read(document, where, true);
 }
 
 }  // namespace faultline

@@ -18,8 +18,8 @@
 #include "lib/core/error.hpp"
 #include "lib/core/issue.hpp"
 #include "lib/identify/fit_alike.hpp"
+#include "lib/identify/parameter_table.hpp"
 #include "lib/identify/physical.hpp"
-#include "lib/identify/shooting_stage.hpp"
 #include "lib/identify/verdict/fit_verdict.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -229,15 +229,11 @@ void quiet_solver() {
 }  // namespace
 
 void IdentifyOptions::check() const {
-  const auto positive = [](const char* field, double value) {
-    if (!(value > 0.0))
+  const auto positive = [](const char* field, int value) {
+    if (value <= 0)
       throw Error(ErrorCode::usage, field, fmt::format("is {}; expected a number above 0", value));
   };
-  positive("window_s", window_s);
-  positive("segment_s", segment_s);
-  positive("min_segment_rows", min_segment_rows - 2);
   positive("max_rows", max_rows);
-  positive("max_windows", max_windows);
   positive("max_iterations", max_iterations);
   if (threads < 0)
     throw Error(ErrorCode::usage, "threads", fmt::format("is {}; expected 0 or more", threads));

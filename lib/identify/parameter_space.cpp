@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/matrix/decompositions.hpp"
@@ -182,20 +183,11 @@ std::string extra_name(const ParameterSpace& space, const ExtraTerm& term) {
 }
 
 std::string extra_unit(ExtraKind kind, AxisKind axis) {
-  switch (kind) {
-    case ExtraKind::load_friction:
-      return "1";
-    case ExtraKind::shared_inertia:
-      return axis == AxisKind::revolute ? "kg m^2" : "kg";
-    case ExtraKind::shared_viscous:
-      return viscous_unit(axis);
-    case ExtraKind::gear_compliance:
-      return axis == AxisKind::revolute ? "rad/(N m)" : "m/N";
-    case ExtraKind::shared_coulomb:
-    case ExtraKind::ripple_cosine:
-    case ExtraKind::ripple_sine:
-      break;
-  }
+  const bool turns = axis == AxisKind::revolute;
+  if (kind == ExtraKind::load_friction) return "1";
+  if (kind == ExtraKind::shared_inertia) return turns ? "kg m^2" : "kg";
+  if (kind == ExtraKind::shared_viscous) return viscous_unit(axis);
+  if (kind == ExtraKind::gear_compliance) return turns ? "rad/(N m)" : "m/N";
   return torque_unit(axis);
 }
 
@@ -282,7 +274,7 @@ Chain chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) {
   return chain;
 }
 
-Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain& chain, double phi) {
+Eigen::VectorXd parameters_of(const ParameterSpace& space, Chain chain, double phi) {
   const int n = space.joints();
   Eigen::VectorXd numbers(n * (kLinkParameters + 1)), p(space.count());
   for (int i = 0; i < n; ++i) {
@@ -337,16 +329,16 @@ WantedParameters wanted_parameters(const ParameterSpace& space, const Robot& rob
   for (int p = 0; p < space.rigid(); ++p)
     if (space.base[p].is_rotor) wanted.optional[p] = true;
   for (int j = 0; j < space.joints(); ++j) {
-    const std::string number = std::to_string(j + 1);
-    if (is_exact("fv" + number)) wanted.asked[space.viscous(j)] = false;
-    if (is_exact("fc" + number)) wanted.asked[space.coulomb(j)] = false;
-    for (const int p : {space.offset(j), space.bend(j), space.skew(j)}) {
-      wanted.optional[p] = true;
-      wanted.asked[p] = try_offsets;
+    const std::pair<const char*, int> friction[] = {{"fv", space.viscous(j)},
+                                                    {"fc", space.coulomb(j)},
+                                                    {"fo", space.offset(j)},
+                                                    {"fb", space.bend(j)},
+                                                    {"fs", space.skew(j)}};
+    for (const auto& [name, p] : friction) {
+      wanted.optional[p] = p >= space.offset(0);
+      wanted.asked[p] = (try_offsets || !wanted.optional[p]) && !has_joint(still, j) &&
+                        !is_exact(name + std::to_string(j + 1));
     }
-    if (is_exact("fo" + number)) wanted.asked[space.offset(j)] = false;
-    if (is_exact("fb" + number)) wanted.asked[space.bend(j)] = false;
-    if (is_exact("fs" + number)) wanted.asked[space.skew(j)] = false;
   }
   for (int p = space.extra_begin(); p < space.timing(); ++p) {
     const int joint = space.joint_of(p);
@@ -355,26 +347,19 @@ WantedParameters wanted_parameters(const ParameterSpace& space, const Robot& rob
     wanted.optional[p] = true;
     wanted.asked[p] = !given && !has_joint(still, joint);
   }
-  for (int joint : still)
-    for (int p : {space.viscous(joint - 1), space.coulomb(joint - 1), space.offset(joint - 1),
-                  space.bend(joint - 1), space.skew(joint - 1)})
-      wanted.asked[p] = false;
   wanted.asked[space.timing()] = robot.log.torque_between_samples == TorqueTiming::unknown;
   return wanted;
 }
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-MatrixXd payload_columns(const ParameterSpace& space) {
+Eigen::MatrixXd payload_columns(const ParameterSpace& space) {
   const int n = space.joints();
-  const MatrixXd map = base_map(space);
-  MatrixXd out(space.rigid(), n);
+  const Eigen::MatrixXd map = base_map(space);
+  Eigen::MatrixXd out(space.rigid(), n);
   for (int link = 0; link < n; ++link) {
     Chain chain = space.chain;
     for (LinkInertia& l : chain.links) l = {};
     chain = with_payload(chain, link, 1.0);
-    VectorXd numbers = VectorXd::Zero(n * (kLinkParameters + 1));
+    Eigen::VectorXd numbers = Eigen::VectorXd::Zero(n * (kLinkParameters + 1));
     for (int i = 0; i < n; ++i)
       numbers.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
     out.col(link) = map * numbers;

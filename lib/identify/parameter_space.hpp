@@ -74,7 +74,7 @@ Chain chain_from(const ParameterSpace& space, const Eigen::VectorXd& parameters)
 
 /// Returns the parameters of `robot` in `space`: the base parameters whose torques are nearest to its own,
 /// its friction, `phi`.
-Eigen::VectorXd parameters_of(const ParameterSpace& space, const Chain& chain, double phi);
+Eigen::VectorXd parameters_of(const ParameterSpace& space, Chain chain, double phi);
 
 /// Returns the map from the numbers of links and rotors to base parameters: base x (11 n).
 Eigen::MatrixXd base_map(const ParameterSpace& space);

@@ -29,17 +29,27 @@ std::vector<int> still_for(const Identification& id, int p, const std::vector<in
   return has_joint(still, joint) ? std::vector<int>{joint + 1} : std::vector<int>{};
 }
 
-std::string why_offset(const Identification& id, int p, const TableFacts& facts) {
+/// Returns what to record so that the motion determines a parameter.
+std::string not_excited(const std::vector<int>& still) {
+  if (still.empty())
+    return "these motions do not distinguish it from the other parameters; give a log in which every joint "
+           "moves at changing speed and reverses";
+  return fmt::format("joint {} never moves; give a log in which it moves and reverses",
+                     fmt::join(still, ", "));
+}
+
+std::string why_offset(const Identification& id, int p) {
   return fmt::format("left at {1:g}: {0}",
-                     facts.fast ? "it does not lower the held-out error"
-                                : fmt::format("no log has a sample period below {:g} s", kShowsFriction_s),
+                     has_fast_log(id)
+                         ? "it does not lower the held-out error"
+                         : fmt::format("no log has a sample period below {:g} s", kShowsFriction_s),
                      id.estimate[p]);
 }
 
-std::string why_width(const Identification& id, int p, const TableFacts& facts) {
+std::string why_width(const Identification& id, int p) {
   const std::string reason =
       id.method == IdentifyMethod::weak_form ? "the momentum balance hardly depends on it"
-      : !facts.fast
+      : !has_fast_log(id)
           ? fmt::format("no log has a sample period below {:g} s", kShowsFriction_s)
           : "the logs do not determine this joint's Coulomb friction, or the options exclude it from the fit";
   return fmt::format("left at {:g}: {}", elementary::exp(id.estimate[p]), reason);
@@ -48,13 +58,13 @@ std::string why_width(const Identification& id, int p, const TableFacts& facts) 
 std::string why_not(const Identification& id, int p, const TableFacts& facts) {
   const std::vector<int> still = still_for(id, p, facts.still);
   if (!still.empty() && p != id.space.timing()) return not_excited(still);
-  if (p > id.space.timing()) return why_width(id, p, facts);
+  if (p > id.space.timing()) return why_width(id, p);
   if (p < id.space.rigid() && id.space.base[p].is_rotor && !(id.covariance(p, p) > 0.0))
     return fmt::format("left at {:g}: it does not lower the held-out error", id.estimate[p]);
   if (!facts.asked[p] && p == id.space.timing())
     return fmt::format("left at {:g}: the robot file states how torque runs between samples", id.estimate[p]);
-  if (p < id.space.rigid()) return why_not_identifiable(facts.still, facts.undriven, facts.leaning);
-  return p >= id.space.offset(0) && !facts.asked[p] ? why_offset(id, p, facts) : not_excited(still);
+  if (p < id.space.rigid()) return why_not_identifiable(facts);
+  return p >= id.space.offset(0) && !facts.asked[p] ? why_offset(id, p) : not_excited(still);
 }
 
 ParameterEstimate entry(const WeakFit& weak, const TableFacts& facts, const Identification& id, int p) {
@@ -74,27 +84,23 @@ ParameterEstimate entry(const WeakFit& weak, const TableFacts& facts, const Iden
 
 }  // namespace
 
-std::string not_excited(const std::vector<int>& still) {
-  if (still.empty())
-    return "these motions do not distinguish it from the other parameters; give a log in which every joint "
-           "moves at changing speed and reverses";
-  return fmt::format("joint {} never moves; give a log in which it moves and reverses",
-                     fmt::join(still, ", "));
+bool has_fast_log(const Identification& id) {
+  return std::any_of(id.logs.begin(), id.logs.end(),
+                     [](const IdentifiedLog& log) { return log.sample_period_s < kShowsFriction_s; });
 }
 
-std::string why_not_identifiable(const std::vector<int>& still, const std::vector<int>& undriven,
-                                 const std::vector<int>& leaning) {
-  if (still.empty() && !leaning.empty())
+std::string why_not_identifiable(const TableFacts& facts) {
+  if (facts.still.empty() && !facts.leaning.empty())
     return fmt::format(
         "a friction offset of joint {0} would act like its mass and rotor; state fo{0} under [known], 0 if "
         "its friction is the same in both directions",
-        leaning.front());
-  if (still.empty() && !undriven.empty())
+        facts.leaning.front());
+  if (facts.still.empty() && !facts.undriven.empty())
     return fmt::format(
         "joint {} is hardly driven, and the other joints do not determine it; give a log in which it is "
         "driven",
-        fmt::join(undriven, ", "));
-  return not_excited(still);
+        fmt::join(facts.undriven, ", "));
+  return not_excited(facts.still);
 }
 
 std::vector<ParameterEstimate> base_parameter_table(const WeakFit& weak, const TableFacts& facts,

@@ -12,20 +12,19 @@ namespace faultline {
 /// Sample period, s, below which a log shows the velocities at which friction bends, and its offset.
 inline constexpr double kShowsFriction_s = 0.03;
 
+/// Whether some log is fast enough to show friction offset and width.
+bool has_fast_log(const Identification& id);
+
 /// Facts that explain why parameters were not estimated.
 struct TableFacts {
   std::vector<bool> asked;    ///< by parameter: the weak form should estimate it
   std::vector<int> still;     ///< joints that never move, from 1
   std::vector<int> undriven;  ///< joints of negligible torque, from 1
   std::vector<int> leaning;   ///< joints whose mass and rotor assume no friction offset, from 1
-  bool fast = true;           ///< some log has a shorter period than kShowsFriction_s
 };
 
 /// Returns what to record so that the motion determines a parameter.
-std::string not_excited(const std::vector<int>& still);
-/// The same, if joints may be still, hardly driven or assumed without friction offset, all from 1.
-std::string why_not_identifiable(const std::vector<int>& still, const std::vector<int>& undriven,
-                                 const std::vector<int>& leaning);
+std::string why_not_identifiable(const TableFacts& facts);
 
 /// Returns the parameters of `id.space` with the values of `id.estimate` and `id.covariance`, except bent,
 /// skew and extra terms of value 0; those that were not identified with the reason.

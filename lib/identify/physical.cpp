@@ -59,13 +59,11 @@ Eigen::VectorXd solve(const PhysicalEquations& equations) {
   double best_cost = std::numeric_limits<double>::infinity();
   const double scale = elementary::log(equations.scale() + 1e-6);
   for (int s = 0; s < kStarts; ++s) {
-    Eigen::VectorXd x(equations.open());
+    Eigen::VectorXd x(equations.open().size());
     Eigen::Index k = 0;
-    for (const PhysicalUnknown& u : equations.unknowns()) {
-      if (u.exact) continue;
+    for (const PhysicalUnknown& u : equations.open())
       x[k++] = u.std > 0.0 ? elementary::log(std::max(u.value, 1e-6))
                            : (u.kind == 'm' ? scale : -0.7) + (s > 0 ? random.uniform(-1.5, 1.5) : 0.0);
-    }
     const double cost = descend(equations, x);
     if (best.size() == 0) best = x;  // no cost is finite if the covariance is invalid
     if (cost < 0.5 * best_cost) best = x, best_cost = cost;
@@ -103,11 +101,9 @@ std::string join_or(const std::vector<std::string>& words) {
 std::string missing_datum(const PhysicalEquations& equations, const Eigen::MatrixXd& rows,
                           const Eigen::MatrixXd& loaded, Eigen::Index p) {
   std::vector<std::string> facts;
-  Eigen::Index k = 0;
   for (const char kind : {'l', 'm'}) {
-    k = 0;
-    for (const PhysicalUnknown& u : equations.unknowns()) {
-      if (u.exact) continue;
+    Eigen::Index k = 0;
+    for (const PhysicalUnknown& u : equations.open()) {
       if (u.kind == kind && freedom(with_row(rows, k))[p] < kMoves) facts.push_back(u.name);
       ++k;
     }
@@ -130,7 +126,7 @@ struct Solution {
 };
 
 Solution solve_and_judge(const PhysicalEquations& equations) {
-  const int open = equations.open();
+  const auto open = static_cast<Eigen::Index>(equations.open().size());
   Solution s;
   s.log_value.setZero(open);
   s.spread = s.freedom = Eigen::VectorXd::Ones(open);
@@ -138,13 +134,9 @@ Solution solve_and_judge(const PhysicalEquations& equations) {
   if (open == 0 || equations.rows() == 0) return s;
   s.log_value = solve(equations);
   s.rows = equations.relative_slopes(s.log_value);
-  s.loaded = equations.relative_slopes_loaded(s.log_value, 1.0);
-  Eigen::Index k = 0;
-  for (const PhysicalUnknown& u : equations.unknowns()) {
-    if (u.exact) continue;
-    if (u.std > 0.0) s.rows = with_row(s.rows, k);
-    ++k;
-  }
+  s.loaded = equations.relative_slopes(s.log_value, 0, 1.0);
+  for (Eigen::Index k = 0; k < open; ++k)
+    if (equations.open()[k].std > 0.0) s.rows = with_row(s.rows, k);
   s.freedom = freedom(s.rows);
   Eigen::VectorXd r;
   Eigen::MatrixXd j;
@@ -158,8 +150,7 @@ Solution solve_and_judge(const PhysicalEquations& equations) {
 }
 
 ParameterEstimate given(const PhysicalUnknown& u) {
-  ParameterEstimate e{u.name, u.value, 0.0, {u.value, u.value}, "", true, "", ""};
-  return e;
+  return {u.name, u.value, 0.0, {u.value, u.value}, "", true, "", ""};
 }
 
 ParameterEstimate solved(const PhysicalEquations& equations, const PhysicalUnknown& u, const Solution& s,

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
@@ -51,6 +53,8 @@ void PhysicalEquations::list_unknowns(std::span<const BaseEstimate> groups) {
       unknowns_.push_back(
           {"payload", 'p', static_cast<int>(g), payload.value, payload.std, payload.std == 0.0});
   }
+  std::copy_if(unknowns_.begin(), unknowns_.end(), std::back_inserter(open_),
+               [](const PhysicalUnknown& u) { return !u.exact; });
 }
 
 bool PhysicalEquations::belongs_to_general_link(int p) const {
@@ -76,12 +80,6 @@ void PhysicalEquations::add_group(const BaseEstimate& from) {
   group.whitener = Eigen::MatrixXd::Identity(m, m);
   if (m > 0) c.llt().matrixL().solveInPlace(group.whitener);
   groups_.push_back(std::move(group));
-}
-
-int PhysicalEquations::open() const {
-  int count = 0;
-  for (const PhysicalUnknown& u : unknowns_) count += u.exact ? 0 : 1;
-  return count;
 }
 
 int PhysicalEquations::rows() const {
@@ -132,7 +130,7 @@ Eigen::MatrixXd PhysicalEquations::slopes(const Eigen::VectorXd& x, int group, d
   return j;
 }
 
-Eigen::MatrixXd PhysicalEquations::relative(const Eigen::VectorXd& x, int group, double more) const {
+Eigen::MatrixXd PhysicalEquations::relative_slopes(const Eigen::VectorXd& x, int group, double more) const {
   const Eigen::VectorXd at = base(x, group, more);
   if (at.size() == 0) return Eigen::MatrixXd::Zero(0, x.size());
   const double least = 1e-9 + 1e-6 * at.cwiseAbs().maxCoeff();
@@ -143,15 +141,11 @@ Eigen::MatrixXd PhysicalEquations::relative_slopes(const Eigen::VectorXd& x) con
   Eigen::MatrixXd out(rows(), x.size());
   Eigen::Index at = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const Eigen::MatrixXd part = relative(x, static_cast<int>(g), 0.0);
+    const Eigen::MatrixXd part = relative_slopes(x, static_cast<int>(g), 0.0);
     out.middleRows(at, part.rows()) = part;
     at += part.rows();
   }
   return out;
-}
-
-Eigen::MatrixXd PhysicalEquations::relative_slopes_loaded(const Eigen::VectorXd& x, double payload) const {
-  return relative(x, 0, payload);
 }
 
 void PhysicalEquations::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* j) const {
@@ -166,14 +160,11 @@ void PhysicalEquations::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& r, E
     if (j) j->middleRows(at, count) = group.whitener * slopes(x, static_cast<int>(g), 0.0);
     at += count;
   }
-  Eigen::Index k = 0;
-  for (const PhysicalUnknown& u : unknowns_) {
-    if (u.exact) continue;
-    if (u.std > 0.0) {
-      r[m + k] = (elementary::exp(x[k]) - u.value) / u.std;
-      if (j) (*j)(m + k, k) = elementary::exp(x[k]) / u.std;
-    }
-    ++k;
+  for (std::size_t k = 0; k < open_.size(); ++k) {
+    const PhysicalUnknown& u = open_[k];
+    if (u.std <= 0.0) continue;
+    r[m + k] = (elementary::exp(x[k]) - u.value) / u.std;
+    if (j) (*j)(m + k, k) = elementary::exp(x[k]) / u.std;
   }
 }
 

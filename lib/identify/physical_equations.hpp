@@ -28,7 +28,8 @@ class PhysicalEquations {
   PhysicalEquations(const Robot& robot, const ParameterSpace& space, std::span<const BaseEstimate> groups);
 
   const std::vector<PhysicalUnknown>& unknowns() const { return unknowns_; }
-  int open() const;
+  /// Returns the unknowns to be solved for: those that are not given exactly.
+  const std::vector<PhysicalUnknown>& open() const { return open_; }
   /// Number of usable base parameters, over all groups.
   int rows() const;
   /// Returns the largest absolute value of a base parameter.
@@ -36,8 +37,8 @@ class PhysicalEquations {
 
   /// Returns the relative change of each base parameter of each group by each open unknown's logarithm.
   Eigen::MatrixXd relative_slopes(const Eigen::VectorXd& log_open) const;
-  /// The same for the first group alone with a further payload of `payload` kg.
-  Eigen::MatrixXd relative_slopes_loaded(const Eigen::VectorXd& log_open, double payload) const;
+  /// The same for one group alone with a further payload of `more` kg.
+  Eigen::MatrixXd relative_slopes(const Eigen::VectorXd& log_open, int group, double more) const;
   /// Computes the whitened residual and, if `j` is not null, its slopes; uncertain facts come last.
   void evaluate(const Eigen::VectorXd& log_open, Eigen::VectorXd& r, Eigen::MatrixXd* j) const;
 
@@ -53,11 +54,10 @@ class PhysicalEquations {
   void add_group(const BaseEstimate& estimate);
   Eigen::VectorXd base(const Eigen::VectorXd& log_open, int group, double more) const;
   Eigen::MatrixXd slopes(const Eigen::VectorXd& log_open, int group, double more) const;
-  Eigen::MatrixXd relative(const Eigen::VectorXd& log_open, int group, double more) const;
 
   const Robot& robot_;
   const ParameterSpace& space_;
-  std::vector<PhysicalUnknown> unknowns_;
+  std::vector<PhysicalUnknown> unknowns_, open_;
   std::vector<Group> groups_;
 };
 

@@ -13,8 +13,11 @@
 namespace faultline {
 namespace {
 
+constexpr double kSegment_s = 0.25;         // length of a segment on logs of 100 Hz and above
+constexpr int kFewestSegmentRows = 8;       // of a segment on slower logs
 constexpr double kWidthDoubt = 1.15;        // of ln(width): a factor of about 3
 constexpr std::size_t kTrialExcerpts = 40;  // of the trial, and fewer than twice as many
+constexpr int kMostSolves = 6;              // each with noise and outlier weights measured anew
 constexpr int kTrialRounds = 2;             // with the noise measured anew: enough to show a systematic error
 constexpr int kTrialIterations = 12;        // at most, of a solve in the trial
 constexpr double kRegular = 0.7;            // correlation of neighbouring residuals: more is not noise
@@ -39,15 +42,14 @@ std::vector<ParameterPrior> priors_of(const ParameterSpace& space, const Robot& 
   return priors;
 }
 
-std::vector<int> free_parameters(const WeakFit& weak, const Identification& id,
-                                 const IdentifyOptions& options) {
+std::vector<int> free_parameters(const WeakFit& weak, const Identification& id) {
   const ParameterSpace& space = id.space;
   const bool is_fast = has_fast_log(id);
   std::vector<int> free;
   for (int p = 0; p < space.linear(); ++p)
     if (weak.free[p]) free.push_back(p);
   for (int j = 0; j < space.joints(); ++j)
-    if (options.estimate_width && is_fast && weak.free[space.coulomb(j)]) free.push_back(space.log_width(j));
+    if (is_fast && weak.free[space.coulomb(j)]) free.push_back(space.log_width(j));
   return free;
 }
 
@@ -107,46 +109,39 @@ std::string refusal(const ShootingFit& shot, const Gathered& gathered, const Tor
 
 }  // namespace
 
-bool has_fast_log(const Identification& id) {
-  return std::any_of(id.logs.begin(), id.logs.end(),
-                     [](const IdentifiedLog& log) { return log.sample_period_s < kShowsFriction_s; });
-}
-
 ShootingOutcome shoot(std::span<LogSource* const> logs, const Gathered& gathered, const TorqueFit& torque,
                       const Identification& id, const IdentifyOptions& options, const Progress& progress) {
-  const std::vector<int> free = free_parameters(torque.fit, id, options);
+  const std::vector<int> free = free_parameters(torque.fit, id);
   const int rows = affordable_rows(id.space, free.size(), options.max_rows);
-  const std::vector<Excerpt> excerpts = gather_excerpts(
-      logs, gathered, torque.shift, Excerpts(options.segment_s, options.min_segment_rows, rows));
+  const std::vector<Excerpt> excerpts =
+      gather_excerpts(logs, gathered, torque.shift, Excerpts(kSegment_s, kFewestSegmentRows, rows));
   ShootingOutcome out;
   if (excerpts.empty()) {
     out.refused = "no stretch of the logs is long enough to fit its motion";
     return out;
   }
   const std::vector<Excerpt> few = some_of(excerpts);
-  ShootingOptions shooting;
-  shooting.max_iterations = kTrialIterations;
-  shooting.max_rounds = kTrialRounds;
-  shooting.threads = options.threads;
   ShootingProblem problem{.space = id.space,
                           .excerpts = few,
                           .start = torque.fit.parameters,
                           .free = free,
                           .priors = priors_of(id.space, id.robot),
                           .noise = gathered.measurements.noise(),
-                          .floor = gathered.measurements.floor()};
-  const ShootingFit trial = fit_shooting(problem, shooting, {});
+                          .floor = gathered.measurements.floor(),
+                          .max_iterations = kTrialIterations,
+                          .max_rounds = kTrialRounds,
+                          .threads = options.threads};
+  const ShootingFit trial = fit_shooting(problem, {});
   if (options.method == IdentifyMethod::automatic &&
       model_error_dominates(trial, gathered.measurements.noise())) {
     out.refused = "the fit of the motion has a systematic error that no parameters of this model remove";
     return out;
   }
-  shooting.max_iterations = options.max_iterations;
-  shooting.max_rounds = ShootingOptions{}.max_rounds;
-  const Eigen::VectorXd& start = trial.converged ? trial.parameters : problem.start;
-  out.fit = fit_shooting(
-      {problem.space, excerpts, start, problem.free, problem.priors, problem.noise, problem.floor}, shooting,
-      progress);
+  problem.excerpts = excerpts;
+  if (trial.converged) problem.start = trial.parameters;
+  problem.max_iterations = options.max_iterations;
+  problem.max_rounds = kMostSolves;
+  out.fit = fit_shooting(problem, progress);
   out.refused = refusal(out.fit, gathered, torque, id);
   return out;
 }

@@ -24,7 +24,4 @@ struct ShootingOutcome {
 ShootingOutcome shoot(std::span<LogSource* const> logs, const Gathered& gathered, const TorqueFit& torque,
                       const Identification& id, const IdentifyOptions& options, const Progress& progress);
 
-/// Whether some log is fast enough to show friction offset and width.
-bool has_fast_log(const Identification& id);
-
 }  // namespace faultline

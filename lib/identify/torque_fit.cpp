@@ -130,13 +130,6 @@ Eigen::MatrixXd with_doubt(const Eigen::MatrixXd& doubt, Eigen::MatrixXd covaria
   return covariance;
 }
 
-/// Returns the shifts with every torque delayed by `later` more samples, within the windows.
-std::vector<int> delayed_by(int later, const ShiftRange& range, std::vector<int> shifts) {
-  const int earliest = range.first + 1, latest = range.last;
-  for (int& shift : shifts) shift = std::clamp(shift + later, earliest, latest);
-  return shifts;
-}
-
 /// Returns the fit of the balances of another choice.
 TorqueFit fit_again(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
                     const WeakChoice& choice, TorqueFit torque) {
@@ -151,9 +144,10 @@ TorqueFit fit_again(const WeakSets& windows, const ParameterSpace& space, const 
 TorqueFit settle_timing(const WeakSets& windows, const ParameterSpace& space, const Eigen::VectorXd& nominal,
                         WeakChoice choice, TorqueFit torque) {
   const auto phi = [&] { return torque.fit.parameters[space.timing()]; };
-  const auto delay_all = [&](int later) {
+  const auto delay_all = [&](int later) {  // within the windows
     const std::vector<int> before = choice.shift;
-    choice.shift = delayed_by(later, windows.shifts, before);
+    for (int& shift : choice.shift)
+      shift = std::clamp(shift + later, windows.shifts.first + 1, windows.shifts.last);
     if (choice.shift == before) return false;
     torque = fit_again(windows, space, nominal, choice, std::move(torque));
     return true;

@@ -27,8 +27,8 @@ constexpr double kSticksOfFriction = 0.2;  // least ratio of the residual at res
 constexpr double kMostAtRest = 0.995,
                  kStictionSlack = 1.25;  // quantile of the residuals at rest, and times it
 constexpr double kSlightRidge = 1e-9;  // relative, on the diagonal: columns that the motions do not separate
-constexpr std::array kLags{-1, 0, 1, 2};                         // samples, tried for RowSetting::torque_lag
-constexpr std::array kWidths{.003, .006, .01, .016, .025, .05};  // rad/s or m/s, of friction
+constexpr std::array kLags{-1, 0, 1, 2};  // samples, tried for RowSetting::torque_lag
+constexpr std::array kTriedWidths{.003, .006, .01, .016, .025, .05};  // rad/s or m/s, of friction
 
 /// Returns the rows of the logs without lost ones and without the balances of resting joints that stick.
 std::vector<BalanceRows> rows_of(const std::vector<UniformLog>& logs, const RowSetting& setting,
@@ -219,7 +219,7 @@ RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const
   std::vector<BalanceRows> rows = rows_of(logs, setting, model);
   for (int j = 0; j < n; ++j) {
     double narrowest = std::numeric_limits<double>::infinity(), best = setting.friction_width[j];
-    for (const double width : kWidths) {
+    for (const double width : kTriedWidths) {
       setting.friction_width[j] = width;
       renew_friction(logs, setting, model, j, rows);
       const double sum = left(rows, plain_fit(rows, layout, used, scale), j).first;

@@ -11,6 +11,31 @@ namespace faultline {
 /// Prior standard deviation of the delay of one joint's torque beyond the lag of all torques, samples.
 inline constexpr double kDelayStd = 0.3;
 
+/// Sets range, torque rms and repeated positions of the model, a BalanceModel or OneStepModel, from the
+/// healthy logs; the top speed is 0.
+template <typename Model>
+void set_healthy_motion(const std::vector<UniformLog>& logs, Model& m) {
+  // Bounds of the share of repeated positions, whose logarithm is the price of a stuck encoder.
+  constexpr double kFewestRepeats = 1e-3, kMostRepeats = 0.999;
+  const int n = logs.front().joints();
+  m.q_low = Eigen::VectorXd::Constant(n, 1e300);
+  m.q_high = -m.q_low;
+  m.top_speed = m.torque_rms = m.repeat_share = Eigen::VectorXd::Zero(n);
+  m.longest_repeat = Eigen::VectorXi::Zero(n);
+  double rows = 0.0;
+  for (const UniformLog& log : logs) {
+    m.q_low = m.q_low.cwiseMin(log.q.colwise().minCoeff().transpose());
+    m.q_high = m.q_high.cwiseMax(log.q.colwise().maxCoeff().transpose());
+    m.torque_rms += log.tau.cwiseAbs2().colwise().sum().transpose();
+    rows += log.rows();
+    const RepeatedPositions repeats = repeated_positions(log);
+    m.longest_repeat = m.longest_repeat.cwiseMax(repeats.longest);
+    m.repeat_share += repeats.share / static_cast<double>(logs.size());
+  }
+  m.repeat_share = m.repeat_share.cwiseMax(kFewestRepeats).cwiseMin(kMostRepeats);
+  m.torque_rms = (m.torque_rms / rows).cwiseSqrt();
+}
+
 /// Returns by joint whether a log shows that its velocity was computed from its position (is_derived()).
 /// `logs` have the samples as recorded, not means.
 std::vector<bool> derived_velocities(const std::vector<UniformLog>& logs);

@@ -15,6 +15,7 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/day_arrow.hpp"
+#include "lib/identify/days/draft_rows.hpp"
 #include "lib/identify/parameter_space.hpp"
 #include "lib/identify/physical.hpp"
 #include "lib/robot/dynamics.hpp"
@@ -56,31 +57,18 @@ std::vector<int> link_columns(const RigidColumns& rigid) {
   return out;
 }
 
-/// Sets ranges, top speeds, torque rms and repeated positions from the healthy logs.
-void set_healthy_motion(const std::vector<UniformLog>& logs, OneStepModel& m) {
-  const int n = logs.front().joints();
-  m.q_low = VectorXd::Constant(n, 1e300);
-  m.q_high = -m.q_low;
-  m.top_speed = m.torque_rms = m.repeat_share = VectorXd::Zero(n);
-  m.longest_repeat = Eigen::VectorXi::Zero(n);
-  double rows = 0.0;
+/// Sets top speeds and what set_healthy_motion() sets from the healthy logs.
+void set_coarse_motion(const std::vector<UniformLog>& logs, OneStepModel& m) {
+  set_healthy_motion(logs, m);
   for (const UniformLog& log : logs) {
-    m.q_low = m.q_low.cwiseMin(log.q.colwise().minCoeff().transpose());
-    m.q_high = m.q_high.cwiseMax(log.q.colwise().maxCoeff().transpose());
-    m.torque_rms += log.tau.cwiseAbs2().colwise().sum().transpose();
-    rows += log.rows();
     const Trajectory x = readings(log);
-    for (int j = 0; j < n; ++j) {
+    for (int j = 0; j < m.torque_rms.size(); ++j) {
       std::vector<double> speed;
-      for (int k = 0; k < log.rows(); ++k) speed.push_back(std::abs(x(n + j, k)));
+      for (int k = 0; k < log.rows(); ++k) speed.push_back(std::abs(x(m.torque_rms.size() + j, k)));
       m.top_speed[j] = std::max(m.top_speed[j], lower_quantile(std::move(speed), kSpeedQuantile));
     }
-    const RepeatedPositions repeats = repeated_positions(log);
-    m.longest_repeat = m.longest_repeat.cwiseMax(repeats.longest);
-    m.repeat_share += repeats.share / static_cast<double>(logs.size());
   }
-  m.repeat_share = m.repeat_share.cwiseMax(1e-3).cwiseMin(0.999);
-  m.torque_rms = (m.torque_rms / rows).cwiseSqrt().cwiseMax(1e-9);
+  m.torque_rms = m.torque_rms.cwiseMax(1e-9);
 }
 
 /// Returns the variance of the measurements before any robot is fitted, from their fourth differences.
@@ -345,7 +333,7 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
   m.body = MotionBody(std::move(rigid), VectorXd::Constant(space.joints(), kFrictionWidth));
   m.setting.period_s = logs.front().period_s;
   m.setting.torque_is_held = torque_between_samples == TorqueTiming::held;
-  set_healthy_motion(logs, m);
+  set_coarse_motion(logs, m);
   m.reading_variance = first_reading_variance(logs);
   m.theta = coarse_start(logs, m, parameters_of(space, robot.chain, 0.0)(kept), robot.chain.friction);
   const MotionLayout at = m.layout();

@@ -11,9 +11,7 @@
 #include "lib/identify/days/day_arrow.hpp"
 #include "lib/identify/days/draft_rows.hpp"
 #include "lib/identify/days/healthy_day.hpp"
-#include "lib/identify/days/refine_terms.hpp"
 #include "lib/identify/days/row_scale.hpp"
-#include "lib/identify/days/work_pieces.hpp"
 #include "lib/identify/parameter_space.hpp"
 
 namespace faultline {
@@ -30,8 +28,6 @@ constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRotorsFrom 
 constexpr int kWidthsAt[] = {3, 6};  // rounds that refine the friction widths
 
 constexpr double kTopSpeed = 0.999;  // quantile of a joint's speed
-// Bounds of the share of repeated positions, whose logarithm is the price of a stuck encoder.
-constexpr double kFewestRepeats = 1e-3, kMostRepeats = 0.999;
 
 constexpr double kTinyRidge = 1e-9, kTiniest = 1e-12;  // for columns that these motions do not excite
 constexpr double kPieceForce = 9.81;                   // N: weight of 1 kg that may be carried or not
@@ -53,32 +49,18 @@ constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02, 0.01, 3e-3, 0.01}
 constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.05, 0.03, 0.3};
 
 /// Returns the model with ranges, top speeds, noise and repeated positions of the healthy logs.
-BalanceModel with_healthy_motion(const std::vector<HealthyDay>& days, BalanceModel m) {
-  const int n = m.joints();
+BalanceModel with_healthy_motion(const std::vector<UniformLog>& logs, BalanceModel m) {
   std::vector<VectorXd> q, dq;
-  m.q_low = VectorXd::Constant(n, 1e300);
-  m.q_high = -m.q_low;
-  m.top_speed = m.torque_rms = m.repeat_share = VectorXd::Zero(n);
-  m.longest_repeat = Eigen::VectorXi::Zero(n);
-  double rows = 0.0;
-  for (const HealthyDay& day : days) {
-    q.push_back(day.log.q_noise);
-    dq.push_back(day.log.dq.rows() > 0 ? day.log.dq_noise : day.log.q_noise);
-    m.q_low = m.q_low.cwiseMin(day.log.q.colwise().minCoeff().transpose());
-    m.q_high = m.q_high.cwiseMax(day.log.q.colwise().maxCoeff().transpose());
-    m.torque_rms += day.log.tau.cwiseAbs2().colwise().sum().transpose();
-    rows += day.log.rows();
-    const MatrixXd speed = fused_velocity(day.log, m.setting).cwiseAbs();
-    for (int j = 0; j < n; ++j) {
+  set_healthy_motion(logs, m);
+  for (const UniformLog& log : logs) {
+    q.push_back(log.q_noise);
+    dq.push_back(log.dq.rows() > 0 ? log.dq_noise : log.q_noise);
+    const MatrixXd speed = fused_velocity(log, m.setting).cwiseAbs();
+    for (int j = 0; j < m.joints(); ++j) {
       std::vector<double> v(speed.col(j).data(), speed.col(j).data() + speed.rows());
       m.top_speed[j] = std::max(m.top_speed[j], upper_quantile(std::move(v), kTopSpeed));
     }
-    const RepeatedPositions repeats = repeated_positions(day.log);
-    m.longest_repeat = m.longest_repeat.cwiseMax(repeats.longest);
-    m.repeat_share += repeats.share / static_cast<double>(days.size());
   }
-  m.repeat_share = m.repeat_share.cwiseMax(kFewestRepeats).cwiseMin(kMostRepeats);
-  m.torque_rms = (m.torque_rms / rows).cwiseSqrt();
   m.q_noise = joint_medians(q);
   m.dq_noise = joint_medians(dq);
   return m;
@@ -103,7 +85,7 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   m.setting.torque_is_held = is_held;
   m.setting.averaged = scale.averaged;
   for (const UniformLog& log : uniform) draft.days.push_back({.log = log});
-  m = with_healthy_motion(draft.days, std::move(m));
+  m = with_healthy_motion(uniform, std::move(m));
   m.stiction = VectorXd::Zero(m.joints());
   m.setting = with_chosen_lag_and_widths(uniform, m);
   m.stiction = static_friction(uniform, m);
@@ -274,11 +256,6 @@ Eigen::VectorXd without_doubles(const BalanceModel& model, Eigen::VectorXd varia
   return variance;
 }
 
-/// Returns the prior variance of the effects of a day (see DayLayout) before any day was fitted.
-Eigen::VectorXd first_day_variance(const BalanceModel& model) {
-  return without_doubles(model, variance_of(model, kFirst));
-}
-
 /// Returns the variance between the days from the second moments of their effects: at least that of kLeast,
 /// and none for an effect that is not distinguishable from another.
 Eigen::VectorXd variance_between_days(const BalanceModel& model, const Eigen::VectorXd& moments) {
@@ -295,7 +272,7 @@ Eigen::VectorXd prior_of_a_day(const BalanceModel& model, const Eigen::VectorXd&
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
                     TorqueTiming torque_between_samples) {
   DayDraft draft = first_draft(logs, space, torque_between_samples);
-  Eigen::VectorXd between = first_day_variance(draft.model);
+  Eigen::VectorXd between = without_doubles(draft.model, variance_of(draft.model, kFirst));
   for (int round = 0; round < kFitRounds; ++round) {
     draft = with_terms_of_round(std::move(draft), round);
     if (round == 0) draft = with_first_piece(std::move(draft));

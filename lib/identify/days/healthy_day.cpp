@@ -37,13 +37,11 @@ Eigen::MatrixXd left_over(const HealthyDay& day, const Eigen::VectorXd& theta) {
   return day.rows.torque - torque_of(day.rows, theta) - day.piece - effect_torque(day);
 }
 
-int reach_of_change(const RowSetting& setting) {
-  constexpr double kReach = 3.0;  // standard deviations of the kernel
-  return static_cast<int>(std::ceil(kReach * setting.kernel_s / setting.row_s()));
-}
-
 std::vector<bool> rows_near_change(const HealthyDay& day, const BalanceModel& model) {
-  return model.piece_kg > 0.0 ? near_change(day.path, reach_of_change(model.setting)) : std::vector<bool>{};
+  constexpr double kReach = 3.0;  // standard deviations of the kernel
+  if (model.piece_kg <= 0.0) return {};
+  return near_change(day.path,
+                     static_cast<int>(std::ceil(kReach * model.setting.kernel_s / model.setting.row_s())));
 }
 
 }  // namespace faultline

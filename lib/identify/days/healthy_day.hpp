@@ -40,9 +40,33 @@ Eigen::MatrixXd left_over(const HealthyDay& day, const Eigen::VectorXd& theta);
 /// Returns the torque of the effects of the day: rows x joints.
 Eigen::MatrixXd effect_torque(const HealthyDay& day);
 
-/// Returns the number of rows on each side of a work piece change that its kernel reaches.
-int reach_of_change(const RowSetting& setting);
-/// Returns, for each row, whether it is within that reach of a change; empty without a work piece.
+/// Returns, for each row, whether the kernel reaches from it to a change of the work piece; empty without
+/// one.
 std::vector<bool> rows_near_change(const HealthyDay& day, const BalanceModel& model);
+
+/// Adds the mass of a work piece that comes and goes, and sets the robot's mass to that of the rows without
+/// it; unchanged if no such mass stands out in the days. The mass at the tip is estimated from short
+/// stretches of rows, and these masses are split into two groups.
+DayDraft with_first_piece(DayDraft draft);
+
+/// Estimates the path of the work piece in each day from the residual of robot and day effects, and its mass
+/// from these paths. `is_rough`: the robot is still inaccurate, so only a step of most of that mass counts.
+DayDraft with_piece_paths(DayDraft draft, bool is_rough);
+
+/// Refines the friction width of each joint on the residual after effects of the days and work piece.
+DayDraft with_refined_widths(DayDraft draft);
+
+/// Keeps the columns of those gear springs that explain their joint clearly better than a rigid gear, with
+/// friction behind the spring. The column alone also fits residual friction when a light joint reverses.
+DayDraft with_chosen_springs(DayDraft draft);
+
+/// Sets the compliance of the gear springs from their columns: friction acts behind the spring.
+BalanceModel with_compliance(BalanceModel model);
+
+/// Adds torques that repeat with a position, if they explain a large part of the residual.
+DayDraft with_ripples(DayDraft draft);
+
+/// Frees rotors that act apart from the links if `are_looked_for`; one whose estimate is negative stays out.
+DayDraft with_rotors(DayDraft draft, bool are_looked_for);
 
 }  // namespace faultline

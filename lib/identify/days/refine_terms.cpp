@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/days/refine_terms.hpp"
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -9,6 +7,7 @@
 
 #include "lib/balance/noise.hpp"
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/identify/days/healthy_day.hpp"
 
 namespace faultline {
 namespace {

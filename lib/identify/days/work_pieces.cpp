@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/days/work_pieces.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/draft_rows.hpp"
+#include "lib/identify/days/healthy_day.hpp"
 
 namespace faultline {
 namespace {

@@ -28,10 +28,10 @@ constexpr Modest kTurning = {1.0, 1.0, 0.3, 0.2}, kSliding = {0.1, 0.1, 0.03, 0.
 
 constexpr std::array<double, 4> kPeriods_s = {5.0, 8.0, 12.0, 20.0};  // each candidate draws one
 constexpr int kFewestHarmonics = 3, kMoreHarmonics = 5;               // each candidate draws 3 to 7
-constexpr double kLeast_s = 20.0;              // least duration of the motion, which has whole periods
-constexpr double kSlowestSample_s = 0.005;     // logs this slow or slower get a suggestion with this period
-constexpr double kLook_s = 0.01;               // steps at which speed and torque are evaluated
-constexpr std::uint64_t kSeedsApart = 100000;  // candidates of one seed differ from those of the next
+constexpr double kLeast_s = 20.0;             // least duration of the motion, which has whole periods
+constexpr double kSlowestSample_s = 0.005;    // logs this slow or slower get a suggestion with this period
+constexpr double kLook_s = 0.01;              // steps at which speed and torque are evaluated
+constexpr std::uint64_t kFirstSeed = 100000;  // of the candidates
 
 constexpr double kStep_s = 0.02;       // between samples of a motion, whose fastest harmonic lasts 0.7 s
 constexpr double kWindow_s = 0.16;     // as long as the windows that judge the terms of logs (kYardstick_s)
@@ -211,17 +211,16 @@ SuggestedMotion suggest_motion(const Identification& id, const SuggestOptions& o
   const SimulationSpec common = common_of(id);
   std::vector<Candidate> candidates(options.candidates);
   parallel_for(options.candidates, options.threads, [&](int i) {
-    candidates[i] =
-        draw_candidate(id, out.joints, common, options.seed * kSeedsApart + static_cast<std::uint64_t>(i));
+    candidates[i] = draw_candidate(id, out.joints, common, kFirstSeed + static_cast<std::uint64_t>(i));
   });
   const auto count = static_cast<Eigen::Index>(id.excitation.columns.size());
   Eigen::VectorXd square = Eigen::VectorXd::Zero(count);
   for (const Candidate& c : candidates) square += c.moments.diagonal() / options.candidates;
   const Eigen::VectorXd unit = square.cwiseSqrt();
-  std::size_t best = 0;
   std::vector<double> condition;
   for (const Candidate& c : candidates) condition.push_back(condition_of(c.moments, unit));
-  best = static_cast<std::size_t>(std::min_element(condition.begin(), condition.end()) - condition.begin());
+  const auto best =
+      static_cast<std::size_t>(std::min_element(condition.begin(), condition.end()) - condition.begin());
   out.simulation = candidates[best].simulation;
   out.seed = candidates[best].seed;
   out.condition = condition[best];

@@ -12,7 +12,6 @@ namespace faultline {
 
 struct SuggestOptions {
   int candidates = 300;
-  std::uint64_t seed = 1;
   int threads = 0;  ///< 0: one per core; the result does not depend on it
 };
 

@@ -45,16 +45,12 @@ std::vector<ExtraTerm> extra_terms_of(const Chain& chain, const std::vector<doub
   return out;
 }
 
-namespace {
-
-/// `Place` is double* for a mutable chain, const double* for a const one.
-template <typename Place, typename AnyChain>
-Place place_of(AnyChain& chain, const ExtraTerm& term) {
+double* extra_value(Chain& chain, const ExtraTerm& term) {
   const auto index = static_cast<std::size_t>(term.index);
-  const auto shared = [&](double SharedDrive::*value) -> Place {
+  const auto shared = [&](double SharedDrive::*value) -> double* {
     return index < chain.shared_drives.size() ? &(chain.shared_drives[index].*value) : nullptr;
   };
-  const auto ripple = [&](double Ripple::*value) -> Place {
+  const auto ripple = [&](double Ripple::*value) -> double* {
     return index < chain.ripples.size() ? &(chain.ripples[index].*value) : nullptr;
   };
   switch (term.kind) {
@@ -74,13 +70,6 @@ Place place_of(AnyChain& chain, const ExtraTerm& term) {
       return nullptr;
   }
   return nullptr;
-}
-
-}  // namespace
-
-double* extra_value(Chain& chain, const ExtraTerm& term) { return place_of<double*>(chain, term); }
-const double* extra_value(const Chain& chain, const ExtraTerm& term) {
-  return place_of<const double*>(chain, term);
 }
 
 JointVector extra_torque(const Chain& chain, const ExtraTerm& term, const JointVector& q,

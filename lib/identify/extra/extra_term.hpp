@@ -38,7 +38,6 @@ std::vector<ExtraTerm> extra_terms_of(const Chain& chain, const std::vector<doub
 
 /// Returns the place of a term's value in the chain; null if it has none, such as compliance.
 double* extra_value(Chain& chain, const ExtraTerm& term);
-const double* extra_value(const Chain& chain, const ExtraTerm& term);
 
 /// Returns the torque of one unit of a term on every joint, at one state, if the gears carry the torque
 /// `carried`. Zero for compliance.

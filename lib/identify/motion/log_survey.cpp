@@ -207,20 +207,17 @@ LogSurvey survey_log(LogSource& source, int joints) {
   survey.repeated_rows = repeats.kind();
   survey.repeated_share = repeats.share();
   for (Busiest& b : busiest) {
-    if (b.motion.rows() == 0) {
-      survey.dq_is_derived.push_back(0);
-      survey.velocity.emplace_back();
-      survey.noise.emplace_back();
-      continue;
-    }
-    survey.dq_is_derived.push_back(dq_is_derived(b.motion) ? 1 : 0);
+    survey.dq_is_derived.push_back(0);
     survey.velocity.emplace_back();
+    survey.noise.emplace_back();
+    if (b.motion.rows() == 0) continue;
+    survey.dq_is_derived.back() = dq_is_derived(b.motion) ? 1 : 0;
     if (b.motion.dq.size() > 0 && !survey.dq_is_derived.back())
       survey.velocity.back() = velocity_agreement(b.motion);
     if (!survey.measures_velocity(static_cast<int>(survey.velocity.size()) - 1)) b.motion.dq.resize(0);
     b.motion = middle_of(b.motion);
     if (survey.repeated_rows != RepeatedRows::none) leave_out_repeats(b.motion);
-    survey.noise.push_back(fit_motion_noise(b.motion));
+    survey.noise.back() = fit_motion_noise(b.motion);
   }
   return survey;
 }

@@ -2,6 +2,8 @@
 #include "lib/identify/motion/stretch.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "lib/identify/motion/raw_stretch.hpp"
 
@@ -38,6 +40,23 @@ Stretch smoothed(const RawStretch& raw, int log, const LogSurvey& survey) {
   return s;
 }
 
+Excerpt cut(const Stretch& s, int begin, int rows) {
+  const int n = s.joints();
+  Excerpt e;
+  e.log = s.log;
+  e.time = s.time.segment(begin, rows);
+  e.tau = s.tau.middleCols(begin, rows);
+  e.measured.resize(2 * n, rows);
+  e.measured << s.q.middleCols(begin, rows), s.dq.middleCols(begin, rows);
+  e.weight = (s.outlier.middleCols(begin, rows).array() == 0).cast<double>();
+  if (!s.has_dq) e.weight.bottomRows(n).setZero();
+  e.start.resize(2 * n);
+  e.start << s.q_smooth.col(begin), s.dq_smooth.col(begin);
+  e.speed = s.dq_smooth.middleCols(begin, rows);
+  e.travel = (e.speed.rowwise().maxCoeff() - e.speed.rowwise().minCoeff()).sum();
+  return e;
+}
+
 }  // namespace
 
 void for_each_stretch(LogSource& source, int log, int joints, const LogSurvey& survey, int stride,
@@ -46,6 +65,46 @@ void for_each_stretch(LogSource& source, int log, int joints, const LogSurvey& s
   for_each_raw_stretch(source, joints, survey.repeated_rows, [&](const RawStretch& raw) {
     if (seen++ % stride == 0) visit(smoothed(raw, log, survey));
   });
+}
+
+Excerpts::Excerpts(double segment_s, int min_rows, int max_rows)
+    : segment_s_(segment_s), min_rows_(min_rows), max_rows_(max_rows) {}
+
+void Excerpts::add(const Stretch& s) {
+  const int rows = std::max(min_rows_, static_cast<int>(std::lround(segment_s_ / s.period_s)) + 1);
+  for (int begin = 0; begin + rows <= s.rows(); begin += rows) {
+    if (seen_++ % stride_ != 0) continue;
+    pool_.push_back(cut(s, begin, rows));
+    held_rows_ += rows;
+    if (held_rows_ <= 2 * max_rows_) continue;
+    std::vector<Excerpt> half;
+    held_rows_ = 0;
+    for (std::size_t i = 0; i < pool_.size(); i += 2) {
+      held_rows_ += pool_[i].rows();
+      half.push_back(std::move(pool_[i]));
+    }
+    pool_ = std::move(half);
+    stride_ *= 2;
+  }
+}
+
+std::vector<Excerpt> Excerpts::take() {
+  std::vector<int> order(pool_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return pool_[a].travel > pool_[b].travel; });
+  std::int64_t rows = 0;
+  std::vector<int> chosen;
+  for (int i : order) {
+    if (!chosen.empty() && rows + pool_[i].rows() > max_rows_) break;
+    rows += pool_[i].rows();
+    chosen.push_back(i);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  std::vector<Excerpt> out;
+  for (int i : chosen) out.push_back(std::move(pool_[i]));
+  pool_.clear();
+  return out;
 }
 
 }  // namespace faultline

@@ -5,7 +5,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "lib/identify/motion/excerpt.hpp"
+#include "lib/identify/motion/stretch.hpp"
 #include "lib/identify/parameter_space.hpp"
 #include "lib/robot/fast_dynamics.hpp"
 

@@ -10,9 +10,9 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/identify/residual_blocks.hpp"
 #include "lib/identify/shooting/shooting_evaluation.hpp"
 #include "lib/identify/shooting/trailing_covariance.hpp"
+#include "lib/identify/weak_form/weak_system.hpp"
 
 namespace faultline {
 namespace {
@@ -120,7 +120,7 @@ ceres::Solver::Summary solve(ceres::Problem& problem, ShootingEvaluation& evalua
 
 /// Returns the std of the residual by channel without outliers, corrected for the unknowns fitted.
 Eigen::VectorXd measure_noise(const std::vector<Eigen::MatrixXd>& residuals,
-                              const std::vector<Excerpt>& excerpts, const Eigen::VectorXd& old,
+                              std::span<const Excerpt> excerpts, const Eigen::VectorXd& old,
                               const Eigen::VectorXd& floor, int free) {
   const Eigen::Index n2 = old.size();
   Eigen::VectorXd out = old;
@@ -160,7 +160,7 @@ Eigen::VectorXd neighbour_correlation(const std::vector<Eigen::MatrixXd>& residu
   return product.cwiseQuotient(square);
 }
 
-double total_s(const std::vector<Excerpt>& excerpts) {
+double total_s(std::span<const Excerpt> excerpts) {
   double sum = 0.0;
   for (const Excerpt& e : excerpts) sum += e.time[e.rows() - 1] - e.time[0];
   return sum;
@@ -179,7 +179,7 @@ bool white_covariance(ceres::Problem& costs, ShootingEvaluation& evaluation, Eig
 }
 
 /// Returns the sandwich covariance over blocks of about a second: it includes correlated residuals.
-Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector<Excerpt>& excerpts,
+Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, std::span<const Excerpt> excerpts,
                          const Eigen::MatrixXd& white) {
   const Eigen::Index m = white.rows();
   const double block_s = residual_block_s(total_s(excerpts), static_cast<double>(m));
@@ -202,17 +202,16 @@ Eigen::MatrixXd sandwich(const ShootingEvaluation& evaluation, const std::vector
 }
 
 /// Returns the white covariance with every std at least that of the sandwich, or, if their mean ratio is
-/// below kWhite, all scaled by that ratio; `widened` is the largest factor.
-Eigen::MatrixXd widen(const Eigen::MatrixXd& white, const Eigen::MatrixXd& robust, double& widened) {
-  Eigen::VectorXd factor = Eigen::VectorXd::Ones(white.rows());
+/// below kWhite, all scaled by that ratio.
+Eigen::MatrixXd widened(const Eigen::MatrixXd& white, const Eigen::MatrixXd& robust) {
   const double mean = robust.diagonal().cwiseQuotient(white.diagonal().cwiseMax(1e-300)).mean();
   if (mean < kWhite) {
-    widened = std::sqrt(std::max(1.0, mean));
-    return widened * widened * white;
+    const double factor = std::sqrt(std::max(1.0, mean));
+    return factor * factor * white;
   }
+  Eigen::VectorXd factor(white.rows());
   for (Eigen::Index k = 0; k < white.rows(); ++k)
     factor[k] = white(k, k) > 0.0 ? std::sqrt(std::max(1.0, robust(k, k) / white(k, k))) : 1.0;
-  widened = factor.maxCoeff();
   return factor.asDiagonal() * white * factor.asDiagonal();
 }
 
@@ -222,7 +221,7 @@ bool measure_covariance(const ShootingProblem& problem, ceres::Problem& costs, S
   evaluation.PrepareForEvaluation(true, true);
   Eigen::MatrixXd white;
   if (!white_covariance(costs, evaluation, white)) return false;
-  const Eigen::MatrixXd wide = widen(white, sandwich(evaluation, problem.excerpts, white), fit.widened);
+  const Eigen::MatrixXd wide = widened(white, sandwich(evaluation, problem.excerpts, white));
   const std::vector<int>& free = problem.free;
   for (std::size_t i = 0; i < free.size(); ++i)
     for (std::size_t k = 0; k < free.size(); ++k) fit.covariance(free[i], free[k]) = wide(i, k);
@@ -231,25 +230,24 @@ bool measure_covariance(const ShootingProblem& problem, ceres::Problem& costs, S
 
 }  // namespace
 
-ShootingFit fit_shooting(const ShootingProblem& problem, const ShootingOptions& options,
-                         const Progress& progress) {
+ShootingFit fit_shooting(const ShootingProblem& problem, const Progress& progress) {
   ShootingFit fit;
   fit.parameters = problem.start;
   fit.noise = problem.first_noise();
   fit.covariance.setZero(problem.space.count(), problem.space.count());
-  fit.segments = static_cast<int>(problem.excerpts.size());
-  ShootingEvaluation evaluation(problem, options.threads);
+  ShootingEvaluation evaluation(problem);
   ceres::Problem::Options costs_options;
   costs_options.evaluation_callback = &evaluation;
   ceres::Problem costs(costs_options);
   add_costs(problem, evaluation, costs);
   bool settled = false;
+  int rounds = 0, iterations = 0;
   ceres::Solver::Summary summary;
-  while (fit.rounds < options.max_rounds) {
-    if (progress) progress("identifying", static_cast<double>(fit.rounds) / options.max_rounds);
-    summary = solve(costs, evaluation, options.max_iterations, settled);
-    fit.iterations += static_cast<int>(summary.iterations.size()) - 1;
-    ++fit.rounds;
+  while (rounds < problem.max_rounds) {
+    if (progress) progress("identifying", static_cast<double>(rounds) / problem.max_rounds);
+    summary = solve(costs, evaluation, problem.max_iterations, settled);
+    iterations += static_cast<int>(summary.iterations.size()) - 1;
+    ++rounds;
     const auto residuals = evaluation.residuals();
     const Eigen::VectorXd next = measure_noise(residuals, problem.excerpts, fit.noise, problem.floor,
                                                static_cast<int>(problem.free.size()));
@@ -262,8 +260,9 @@ ShootingFit fit_shooting(const ShootingProblem& problem, const ShootingOptions& 
   }
   fit.parameters = evaluation.parameters();
   fit.converged = summary.termination_type == ceres::CONVERGENCE;
-  fit.reason = fmt::format("{} iterations in {} rounds over {} segments; {}", fit.iterations, fit.rounds,
-                           fit.segments, fit.converged ? "converged" : "stopped before convergence");
+  fit.reason =
+      fmt::format("{} iterations in {} rounds over {} segments; {}", iterations, rounds,
+                  problem.excerpts.size(), fit.converged ? "converged" : "stopped before convergence");
   if (!measure_covariance(problem, costs, evaluation, fit)) {
     fit.converged = false;
     fit.reason += "; the covariance is singular";

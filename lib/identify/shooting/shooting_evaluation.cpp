@@ -31,11 +31,11 @@ double stable_step(const Chain& chain, const JointVector& q, const JointVector& 
 
 }  // namespace
 
-ShootingEvaluation::ShootingEvaluation(const ShootingProblem& problem, int threads)
+ShootingEvaluation::ShootingEvaluation(const ShootingProblem& problem)
     : space_(problem.space),
       excerpts_(problem.excerpts),
       free_(problem.free),
-      threads_(threads),
+      threads_(problem.threads),
       parameters_(problem.start),
       noise_(problem.first_noise()) {
   const Eigen::Index n2 = 2 * space_.joints(), count = static_cast<Eigen::Index>(excerpts_.size());

@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "lib/identify/shooting/segment_model.hpp"
@@ -26,7 +27,7 @@ struct ReducedExcerpt {
 /// independent of the number of threads.
 class ShootingEvaluation : public ceres::EvaluationCallback {
  public:
-  ShootingEvaluation(const ShootingProblem& problem, int threads);
+  explicit ShootingEvaluation(const ShootingProblem& problem);
 
   std::vector<ReducedExcerpt> reduced;
 
@@ -55,7 +56,7 @@ class ShootingEvaluation : public ceres::EvaluationCallback {
   void store(ReducedExcerpt& out, Eigen::MatrixXd& stacked, bool jacobians) const;
 
   const ParameterSpace& space_;
-  const std::vector<Excerpt>& excerpts_;
+  std::span<const Excerpt> excerpts_;
   const std::vector<int>& free_;
   int threads_;
   double longest_step_s_ = 0.01;

@@ -10,7 +10,7 @@
 #include "lib/identify/torque_fit.hpp"
 #include "lib/identify/verdict/fit_verdict.hpp"
 #include "lib/identify/weak_form/chooser.hpp"
-#include "lib/identify/weak_form/column_selection.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {
 namespace {

@@ -11,7 +11,6 @@
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/parameter_space.hpp"
-#include "lib/identify/residual_blocks.hpp"
 #include "lib/identify/torque_fit.hpp"
 #include "lib/identify/verdict/parameter_trend.hpp"
 #include "lib/identify/verdict/residual_pattern.hpp"
@@ -40,15 +39,12 @@ double usual_step(const ResidualRun& run) {
   return steps.empty() ? kLongest_s : std::max(upper_median(std::move(steps)), 1e-9);
 }
 
-std::size_t longest_lag(const ResidualRun& run) {
-  return static_cast<std::size_t>(std::ceil(kLongest_s / usual_step(run)));
-}
-
 /// Returns the mean product of residuals by distance in windows, from 0 on, over the runs of one joint,
 /// tapered to zero (Newey and West 1987). Windows that a fit weighs down do not count.
 std::vector<double> autocovariance(const std::vector<const ResidualRun*>& runs) {
   std::size_t lags = 0;
-  for (const ResidualRun* run : runs) lags = std::max(lags, longest_lag(*run));
+  for (const ResidualRun* run : runs)
+    lags = std::max(lags, static_cast<std::size_t>(std::ceil(kLongest_s / usual_step(*run))));
   std::vector<double> sum(lags + 1, 0.0), count(lags + 1, 0.0);
   for (const ResidualRun* run : runs) {
     const double step_s = usual_step(*run);
@@ -179,23 +175,18 @@ Eigen::VectorXd pooled_variances(const SingleLog& s, const std::vector<std::vect
   return (bread * sum * bread).diagonal();
 }
 
-std::vector<std::vector<double>> autocovariances(const std::vector<SingleLog>& singles, int joints) {
-  std::vector<std::vector<double>> alike;
-  for (int j = 0; j < joints; ++j) {
-    std::vector<const ResidualRun*> runs;
-    for (const SingleLog& s : singles) runs.push_back(&s.runs[j]);
-    alike.push_back(autocovariance(runs));
-  }
-  return alike;
-}
-
 }  // namespace
 
 std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const std::vector<JointFit>& fits) {
   const ParameterSpace& space = torque.space;
   const std::vector<SingleLog> singles = fit_single_logs(torque, fits);
   if (singles.empty()) return {};
-  const auto alike = autocovariances(singles, torque.system.joints);
+  std::vector<std::vector<double>> alike;  // autocovariance by joint
+  for (int j = 0; j < torque.system.joints; ++j) {
+    std::vector<const ResidualRun*> runs;
+    for (const SingleLog& s : singles) runs.push_back(&s.runs[j]);
+    alike.push_back(autocovariance(runs));
+  }
   std::vector<ParameterTrend> trends(space.linear());
   for (int p = 0; p < space.linear(); ++p) {
     trends[p].name = space.name(p);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/identify/weak_form/extra_choice.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/golden_section.hpp"
+#include "lib/identify/weak_form/weak_choice.hpp"
 
 namespace faultline {
 namespace {
@@ -95,25 +94,21 @@ bool can_be(const Chooser& chooser, const ModelChoice& c, const TermGroup& group
                      chooser.fit(c.weak, wanted, chooser.scale(c.weak, wanted))[p]);
 }
 
-/// Returns the squared residual of all joints, each in its scale, if joint `j` has that gain.
-double residual_with(const Chooser& chooser, const ModelChoice& c, const Eigen::VectorXd& scale, int j,
-                     double log_gain) {
-  WeakChoice tried = c.weak;
-  tried.gain[j] = elementary::exp(log_gain);
-  return chooser.left(tried, c.wanted, scale);
-}
-
 /// Returns the logarithm of the gain of joint `j` with the smallest residual.
 double best_gain(const Chooser& chooser, const ModelChoice& c, int j) {
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   const double most = elementary::log(kMostGain), step = 2.0 * most / kGainSteps;
-  double best = 0.0, least = residual_with(chooser, c, scale, j, 0.0);
+  const auto left_with = [&](double log_gain) {
+    WeakChoice tried = c.weak;
+    tried.gain[j] = elementary::exp(log_gain);
+    return chooser.left(tried, c.wanted, scale);
+  };
+  double best = 0.0, least = left_with(0.0);
   for (int i = 0; i <= kGainSteps; ++i) {
-    const double left = residual_with(chooser, c, scale, j, -most + i * step);
+    const double left = left_with(-most + i * step);
     if (left < least) least = left, best = -most + i * step;
   }
-  return golden_section(best - step, best + step, kGainRefinements,
-                        [&](double log_gain) { return residual_with(chooser, c, scale, j, log_gain); });
+  return golden_section(best - step, best + step, kGainRefinements, left_with);
 }
 
 }  // namespace

@@ -79,13 +79,14 @@ bool has(const ParameterSpace& space, ExtraKind kind) {
                      [kind](const ExtraTerm& term) { return term.kind == kind; });
 }
 
-/// Columns of the extra terms of a stretch, with what they share.
+/// Columns of the extra terms of a stretch, with what they share: the contribution of every sample to the
+/// momentum balance. Shifted torques beyond the stretch are those at its ends.
 class Columns {
  public:
   Columns(const ParameterSpace& space, const Stretch& stretch, const ExtraSetting& setting)
       : space_(space), s_(stretch), setting_(setting), chain_(chain_of(space, setting)), dynamics_(chain_) {}
 
-  /// Returns all columns: (joints x terms) x samples.
+  /// Returns all columns: (joints x terms) rows, term after term, x samples.
   Eigen::MatrixXd all() const {
     const Eigen::Index n = space_.joints(), terms = static_cast<Eigen::Index>(space_.extra.size());
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n * terms, s_.rows() - 1);
@@ -210,14 +211,6 @@ class Columns {
   FastDynamics dynamics_;
 };
 
-/// Returns the contribution of every sample to the momentum balance, one column a sample: (joints x extra
-/// terms) rows, term after term. Shifted torques beyond the stretch are those at its ends.
-Eigen::MatrixXd extra_columns(const ParameterSpace& space, const Stretch& stretch,
-                              const ExtraSetting& setting) {
-  if (space.extra.empty()) return Eigen::MatrixXd(0, stretch.rows() - 1);
-  return Columns(space, stretch, setting).all();
-}
-
 }  // namespace
 
 double weak_width(const ParameterSpace& space, int joint, int k) {
@@ -237,7 +230,10 @@ StretchTerms stretch_terms(const ParameterSpace& space, const Stretch& s, const 
   out.viscous = s.q_smooth.rightCols(steps) - s.q_smooth.leftCols(steps);
   const Eigen::VectorXd rotor = Eigen::Map<const Eigen::VectorXd>(space.chain.rotor_inertia.data(), n);
   out.rotor = rotor.asDiagonal() * (s.dq_smooth.rightCols(steps) - s.dq_smooth.leftCols(steps));
-  out.extra = extra_columns(space, s, setting);
+  if (space.extra.empty())
+    out.extra.resize(0, steps);
+  else
+    out.extra = Columns(space, s, setting).all();
   StateEvaluation evaluate(space);
   StateTerms from, to, mean;
   evaluate(s.q_smooth.col(0), s.dq_smooth.col(0), from);

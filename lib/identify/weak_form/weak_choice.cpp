@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/identify/weak_form/extra_choice.hpp"
 
 namespace faultline {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/identify/weak_form/column_selection.hpp"
 
 namespace faultline {
 namespace {
@@ -15,6 +14,55 @@ namespace {
 constexpr int kRounds = 8;             // fits with new weights, at most
 constexpr double kOutlierStd = 8.0;    // robust standard deviations up to which a row has its full weight
 constexpr double kFormSettled = 1e-9;  // relative change of the residual's scales below which rounds end
+
+constexpr double kDependent = 3e-3;   ///< least share of a scaled column that is independent of the others
+constexpr double kNotExcited = 1e-9;  ///< rms of a column, in units of the residual: less is rounding
+constexpr double kMixed = 0.03;  ///< share of a column in a dependent one beyond which both are confounded
+
+double condition(const Eigen::MatrixXd& a) {
+  if (a.cols() == 0) return 0.0;
+  const Eigen::VectorXd s = singular_values(a);
+  return s[0] / s[s.size() - 1];
+}
+
+std::vector<int> excited_columns(const Eigen::MatrixXd& a, const std::vector<bool>& wanted) {
+  std::vector<int> listed;
+  for (int c = 0; c < a.cols(); ++c)
+    if (wanted[c] && a.col(c).norm() > kNotExcited * std::sqrt(static_cast<double>(a.rows())))
+      listed.push_back(c);
+  return listed;
+}
+
+/// Selects those of the `listed` columns, here scaled, that are no mixture of others.
+void select_independent(const Eigen::MatrixXd& scaled, const std::vector<int>& listed, ColumnSelection& out) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+  const Eigen::MatrixXd r = qr.matrixR().topRows(scaled.cols()).triangularView<Eigen::Upper>();
+  const auto order = qr.colsPermutation().indices();
+  int rank = 0;
+  while (rank < scaled.cols() && std::abs(r(rank, rank)) > kDependent) ++rank;
+  for (int i = 0; i < rank; ++i) {
+    out.columns.push_back(listed[order[i]]);
+    out.confounded[listed[order[i]]] = false;
+  }
+  if (rank < scaled.cols()) {  // the others are mixtures of those
+    const Eigen::MatrixXd mixture = r.topLeftCorner(rank, rank)
+                                        .triangularView<Eigen::Upper>()
+                                        .solve(r.topRightCorner(rank, scaled.cols() - rank));
+    for (int i = 0; i < rank; ++i)
+      if (mixture.row(i).cwiseAbs().maxCoeff() > kMixed) out.confounded[listed[order[i]]] = true;
+  }
+  std::sort(out.columns.begin(), out.columns.end());
+}
+
+/// Returns those of the `listed` columns that were chosen and have an index below `rigid`.
+Eigen::MatrixXd base_columns(const Eigen::MatrixXd& scaled, const std::vector<int>& listed,
+                             const std::vector<int>& chosen, int rigid) {
+  std::vector<int> base;
+  for (std::size_t i = 0; i < listed.size(); ++i)
+    if (listed[i] < rigid && std::binary_search(chosen.begin(), chosen.end(), listed[i]))
+      base.push_back(static_cast<int>(i));
+  return scaled(Eigen::all, base);
+}
 
 /// Returns 1.4826 times the median |residual| of a joint's used rows; at least 1e-12 and torque rounding.
 Eigen::VectorXd robust_scales(const WeakSystem& s, const Eigen::VectorXd& r) {
@@ -28,12 +76,6 @@ Eigen::VectorXd robust_scales(const WeakSystem& s, const Eigen::VectorXd& r) {
   for (int j = 0; j < s.joints; ++j)
     scale[j] = size[j].empty() ? 1.0 : std::max(1.4826 * upper_median_of(size[j]), least[j]);
   return scale;
-}
-
-Eigen::MatrixXd pick(const Eigen::MatrixXd& a, const std::vector<int>& columns) {
-  Eigen::MatrixXd out(a.rows(), columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) out.col(i) = a.col(columns[i]);
-  return out;
 }
 
 /// Returns 1 up to the residuals of a slightly wrong model; beyond, the weight falls with the square.
@@ -83,6 +125,18 @@ void judge(const WeakSystem& s, const Eigen::VectorXd& robust, WeakFit& fit) {
 
 }  // namespace
 
+ColumnSelection select_columns(const Eigen::MatrixXd& a, const std::vector<bool>& wanted, int rigid) {
+  ColumnSelection out;
+  out.confounded.assign(a.cols(), true);
+  const std::vector<int> listed = excited_columns(a, wanted);
+  if (listed.empty()) return out;
+  Eigen::MatrixXd scaled(a.rows(), listed.size());
+  for (std::size_t i = 0; i < listed.size(); ++i) scaled.col(i) = a.col(listed[i]).normalized();
+  select_independent(scaled, listed, out);
+  out.condition_number = condition(base_columns(scaled, listed, out.columns, rigid));
+  return out;
+}
+
 WeakFit fit_weak_form(const WeakSystem& s, const ParameterSpace& space, const Eigen::VectorXd& start,
                       const std::vector<bool>& wanted) {
   const int linear = space.linear();
@@ -101,8 +155,9 @@ WeakFit fit_weak_form(const WeakSystem& s, const ParameterSpace& space, const Ei
     if (round < 2) selection = select_columns(a, wanted, space.rigid());
     Eigen::VectorXd known = start.head(linear);
     for (int c : selection.columns) known[c] = 0.0;
-    const Eigen::VectorXd x =
-        pick(a, selection.columns).householderQr().solve(root.asDiagonal() * (s.y - s.a * known));
+    const Eigen::VectorXd x = Eigen::MatrixXd(a(Eigen::all, selection.columns))
+                                  .householderQr()
+                                  .solve(root.asDiagonal() * (s.y - s.a * known));
     fit.parameters.head(linear) = known;
     for (std::size_t i = 0; i < selection.columns.size(); ++i) fit.parameters[selection.columns[i]] = x[i];
     fit.residual = s.y - s.a * fit.parameters.head(linear);
@@ -118,7 +173,7 @@ WeakFit fit_weak_form(const WeakSystem& s, const ParameterSpace& space, const Ei
   fit.confounded.resize(space.count(), true);
   fit.free.assign(space.count(), false);
   for (int c : selection.columns) fit.free[c] = true;
-  const Eigen::MatrixXd cov = jackknife(s, pick(s.a, selection.columns), fit.weight, fit.residual);
+  const Eigen::MatrixXd cov = jackknife(s, s.a(Eigen::all, selection.columns), fit.weight, fit.residual);
   fit.covariance.setZero(space.count(), space.count());
   for (std::size_t i = 0; i < selection.columns.size(); ++i)
     for (std::size_t k = 0; k < selection.columns.size(); ++k)

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/identify/residual_blocks.hpp"
 
 namespace faultline {
 namespace {
@@ -24,6 +23,12 @@ double seconds_covered(const WeakWindows& windows) {
 }
 
 }  // namespace
+
+double residual_block_s(double total_s, double parameters) {
+  // Bounds of a block's length, and the number of blocks for each parameter.
+  constexpr double kLongest_s = 1.0, kShortest_s = 0.1, kBlocksPerParameter = 5.0;
+  return std::clamp(total_s / (kBlocksPerParameter * parameters), kShortest_s, kLongest_s);
+}
 
 std::vector<bool> moving_windows(const WeakSets& windows, int set, int joint) {
   const std::vector<WeakWindow>& all = windows.sets[set].all();

@@ -30,6 +30,11 @@ struct WeakSystem {
   Eigen::VectorXd width;  ///< ln of the friction widths chosen
 };
 
+/// Returns the length, s, of blocks over which residuals of `total_s` of logs may be correlated, for a
+/// covariance of `parameters`: a second, less on short logs, since fewer blocks than parameters give no
+/// covariance.
+double residual_block_s(double total_s, double parameters);
+
 WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice);
 
 /// Returns, by window of the set, whether joint `j` moves enough to distinguish its friction from stiction.
