@@ -4,13 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "formats/csv/csv_format.hpp"
-#include "formats/hdf5/hdf5_format.hpp"
-#include "formats/matlab/matlab_format.hpp"
-#include "formats/mcap/mcap_format.hpp"
-#include "formats/native/native_format.hpp"
-#include "formats/numpy/numpy_format.hpp"
-#include "formats/rosbag/rosbag_format.hpp"
+#include "formats/known_formats.hpp"
 
 namespace faultline {
 

@@ -9,6 +9,9 @@
 
 namespace faultline {
 
+/// Beginning of the comment line of a text table that contains its provenance.
+inline constexpr std::string_view kProvenanceComment = "# faultline provenance: ";
+
 /// Returns the losses of a damaged log as text for its copy, so that a gap is not attributed to the robot:
 /// one line of ASCII JSON, schema "faultline/provenance/1" (docs/formats-csv.md). Empty without lost rows or
 /// values and severe issues. `source` was read to its end; one without a hash is read once more.

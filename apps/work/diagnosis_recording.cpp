@@ -7,7 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "formats/mcap/mcap_format.hpp"
+#include "formats/mcap/mcap_recording.hpp"
 #include "formats/messages/message_source.hpp"
 #include "formats/provenance.hpp"
 #include "lib/core/atomic_file.hpp"

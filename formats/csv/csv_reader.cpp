@@ -11,9 +11,9 @@
 #include "formats/byte_source.hpp"
 #include "formats/csv/csv_dialect.hpp"
 #include "formats/csv/csv_fields.hpp"
-#include "formats/csv/csv_format.hpp"
 #include "formats/csv/csv_row.hpp"
 #include "formats/csv/wide_rows.hpp"
+#include "formats/known_formats.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 

@@ -12,7 +12,6 @@
 
 #include "formats/csv/csv_dialect.hpp"
 #include "formats/csv/csv_fields.hpp"
-#include "formats/csv/csv_format.hpp"
 #include "formats/provenance.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/raw_reader.hpp"

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "formats/csv/csv_format.hpp"
+#include "formats/known_formats.hpp"
 #include "formats/log_writer.hpp"
+#include "formats/provenance.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/csv_cell.hpp"
 

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "formats/arrays/written_arrays.hpp"
-#include "formats/hdf5/hdf5_format.hpp"
 #include "formats/hdf5/hdf5_library.hpp"
+#include "formats/known_formats.hpp"
 #include "lib/core/files/temporary_file.hpp"
 
 namespace faultline {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "formats/arrays/written_arrays.hpp"
-#include "formats/matlab/matlab_format.hpp"
+#include "formats/known_formats.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 

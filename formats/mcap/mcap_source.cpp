@@ -11,8 +11,9 @@
 
 #include "formats/bytes/little_endian.hpp"
 #include "formats/bytes/unpack_block.hpp"
-#include "formats/mcap/mcap_format.hpp"
+#include "formats/known_formats.hpp"
 #include "formats/mcap/mcap_record.hpp"
+#include "formats/mcap/mcap_recording.hpp"
 #include "formats/mcap/mcap_records.hpp"
 #include "formats/messages/message_source.hpp"
 #include "formats/provenance.hpp"

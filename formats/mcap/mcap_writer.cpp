@@ -8,9 +8,10 @@
 #include <optional>
 #include <string>
 
+#include "formats/known_formats.hpp"
 #include "formats/log_writer.hpp"
 #include "formats/mcap/mcap_file.hpp"
-#include "formats/mcap/mcap_format.hpp"
+#include "formats/mcap/mcap_recording.hpp"
 #include "formats/messages/encode_joint_state.hpp"
 #include "formats/messages/message_source.hpp"
 #include "lib/core/error.hpp"

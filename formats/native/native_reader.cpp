@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "formats/byte_source.hpp"
-#include "formats/native/native_format.hpp"
+#include "formats/known_formats.hpp"
 #include "formats/native/native_layout.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/issue.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "formats/known_formats.hpp"
 #include "formats/log_writer.hpp"
-#include "formats/native/native_format.hpp"
 #include "formats/native/native_layout.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"

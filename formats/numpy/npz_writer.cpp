@@ -6,8 +6,9 @@
 #include <string_view>
 
 #include "formats/arrays/written_arrays.hpp"
+#include "formats/bytes/little_endian.hpp"
+#include "formats/known_formats.hpp"
 #include "formats/numpy/npy_header.hpp"
-#include "formats/numpy/numpy_format.hpp"
 #include "lib/core/atomic_file.hpp"
 
 namespace faultline {

@@ -12,8 +12,8 @@
 #include "formats/byte_source.hpp"
 #include "formats/bytes/little_endian.hpp"
 #include "formats/bytes/unpack_block.hpp"
+#include "formats/known_formats.hpp"
 #include "formats/messages/message_source.hpp"
-#include "formats/rosbag/rosbag_format.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {

@@ -14,8 +14,8 @@
 
 #include "formats/arrays/stored_content.hpp"
 #include "formats/bytes/work_budget.hpp"
+#include "formats/known_formats.hpp"
 #include "formats/messages/message_source.hpp"
-#include "formats/rosbag/rosbag_format.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/issue.hpp"
 
