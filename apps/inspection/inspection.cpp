@@ -78,24 +78,24 @@ Inspection inspect_joint_log(MappedSource& mapped, const std::vector<RawColumn>&
   Checkup checkup;
   OverviewPass overview;
   const bool is_its_robot = robot && robot->joints() == mapped.matching().joints;
-  CorrectedSource source(mapped, is_its_robot ? sliding_joints(robot->chain) : std::vector<bool>{});
+  const auto source = corrected(mapped, is_its_robot ? sliding_joints(robot->chain) : std::vector<bool>{});
   Log segment;
-  while (source.next(segment)) {
+  while (source->next(segment)) {
     assess(segment, state);
     checkup.add(segment);
     overview.add(segment);
     inspection.rows_used += segment.rows();
     if (inspection.lacking.empty()) inspection.lacking = what_is_lacking(segment);
-    if (progress) progress("reading " + source.identity().path, source.share_read());
+    if (progress) progress("reading " + source->identity().path, source->share_read());
   }
   inspection.joint_log = true;
   inspection.joints = mapped.matching().joints;
-  inspection.log = source.identity();
+  inspection.log = source->identity();
   QualityOptions options;
   if (is_its_robot) options.slides = sliding_joints(robot->chain);
-  options.runs = source.identity().runs;
+  options.runs = source->identity().runs;
   inspection.quality = quality_of(state, options);
-  inspection.issues = source.issues();
+  inspection.issues = source->issues();
   inspection.issues.merge(inspection.quality.issues);
   inspection.checkup = checkup.result();
   inspection.overview = overview.result();

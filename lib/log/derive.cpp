@@ -34,7 +34,7 @@ double parabola_slope(const std::vector<double>& time, const std::vector<double>
 
 class VelocitySource : public ChangedSource {
  public:
-  explicit VelocitySource(std::unique_ptr<LogSource> source) : ChangedSource(std::move(source)) {}
+  using ChangedSource::ChangedSource;
 
   bool next(Log& segment) override {
     while (!at_end_) {

@@ -138,8 +138,8 @@ TEST_F(ImperfectLogs, ARecorderThatStopsWithTheFaultLeavesNoHealthyLog) {
       for_each_joint_channel(log, [&](std::vector<double>& values, Channel) {
         std::fill(values.begin() + stop, values.end(), writes_zeros ? 0.0 : values[stop]);
       });
-      CorrectedSource source(std::make_unique<MemorySource>(log));
-      const Diagnosis found = diagnose(source, files_.model, files_.cases);
+      MemorySource recorded(log);
+      const Diagnosis found = diagnose(*corrected(recorded), files_.model, files_.cases);
       EXPECT_EQ(found.verdict, Verdict::inconclusive) << name << ": " << found.verdict_reason;
       EXPECT_NE(found.verdict_reason.find("the end of the log"), std::string::npos) << found.verdict_reason;
     }

@@ -67,8 +67,7 @@ TEST(Derive, TwoRowsGiveNoVelocity) {
 }
 
 Log read_resampled(std::unique_ptr<LogSource> source, const ResampleOptions& options) {
-  ResampledSource made(*source, options);
-  return read_all(made);
+  return read_all(*resampled(*source, options));
 }
 
 TEST(Resample, StraightLinesBetweenSamples) {
@@ -151,10 +150,10 @@ TEST(Resample, BordersOfSegmentsChangeNoTorque) {
 
 TEST(Resample, BeginsAgainAfterRewind) {
   const std::unique_ptr<LogSource> recorded = source_of(pulses(), 64);
-  ResampledSource source(*recorded, {.period_s = 0.0025});
-  const Log once = read_all(source);
-  source.rewind();
-  EXPECT_EQ(read_all(source).tau, once.tau);
+  const auto source = resampled(*recorded, {.period_s = 0.0025});
+  const Log once = read_all(*source);
+  source->rewind();
+  EXPECT_EQ(read_all(*source).tau, once.tau);
 }
 
 }  // namespace

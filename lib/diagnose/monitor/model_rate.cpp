@@ -61,9 +61,8 @@ Issue resampled_issue(const LogRate& rate, const Model& model) {
 }
 
 std::unique_ptr<LogSource> at_model_rate(LogSource& log, const Model& model) {
-  return std::make_unique<ResampledSource>(
-      log, ResampleOptions{.period_s = model.sample_period_s,
-                           .torque_phi = model.has_mechanics() ? model.robot.torque_phi.value_or(0.0) : 0.0});
+  return resampled(log, {.period_s = model.sample_period_s,
+                         .torque_phi = model.has_mechanics() ? model.robot.torque_phi.value_or(0.0) : 0.0});
 }
 
 LogSource& judged_rows(LogSource& log, const Model& model, const Issues& issues,

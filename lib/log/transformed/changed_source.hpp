@@ -12,16 +12,16 @@ namespace faultline {
 /// its first row and has no other reader.
 class ChangedSource : public LogSource {
  public:
+  /// `source` outlives this.
+  explicit ChangedSource(LogSource& source) : source_(source) {}
+  explicit ChangedSource(std::unique_ptr<LogSource> source) : owned_(std::move(source)), source_(*owned_) {}
+
   void rewind() override { source_.rewind(); }
   const LogIdentity& identity() const override { return source_.identity(); }
   const Issues& issues() const override { return source_.issues(); }
   double share_read() const override { return source_.share_read(); }
 
  protected:
-  /// `source` outlives this.
-  explicit ChangedSource(LogSource& source) : source_(source) {}
-  explicit ChangedSource(std::unique_ptr<LogSource> source) : owned_(std::move(source)), source_(*owned_) {}
-
   std::unique_ptr<LogSource> owned_;  ///< null if it belongs to the caller
   LogSource& source_;
 };

@@ -13,7 +13,7 @@ namespace faultline {
 /// log: identity() and issues() do not count them.
 class EmptyRowsSource : public ChangedSource {
  public:
-  explicit EmptyRowsSource(LogSource& source) : ChangedSource(source) {}
+  using ChangedSource::ChangedSource;
 
   bool next(Log& segment) override;
   void rewind() override;

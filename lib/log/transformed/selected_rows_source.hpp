@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "lib/log/transformed/changed_source.hpp"
@@ -18,10 +20,31 @@ struct RowRange {
 class SelectedRowsSource : public ChangedSource {
  public:
   /// The ranges ascend and do not overlap.
-  SelectedRowsSource(LogSource& source, std::vector<RowRange> ranges);
+  SelectedRowsSource(LogSource& source, std::vector<RowRange> ranges)
+      : ChangedSource(source), ranges_(std::move(ranges)) {}
 
-  bool next(Log& segment) override;
-  void rewind() override;
+  bool next(Log& segment) override {
+    for (;;) {
+      const std::int64_t last = rows_.first_row + rows_.rows();
+      while (range_ < ranges_.size() && ranges_[range_].end <= told_) ++range_;
+      const std::int64_t begin = range_ < ranges_.size() ? std::max(ranges_[range_].begin, told_) : last;
+      if (begin < last) {
+        told_ = std::min(ranges_[range_].end, last);
+        segment = slice(rows_, static_cast<int>(begin - rows_.first_row),
+                        static_cast<int>(told_ - rows_.first_row));
+        return true;
+      }
+      if (!source_.next(rows_)) return false;
+      told_ = rows_.first_row;
+    }
+  }
+
+  void rewind() override {
+    source_.rewind();
+    rows_ = {};
+    told_ = 0;
+    range_ = 0;
+  }
 
  private:
   std::vector<RowRange> ranges_;

@@ -48,10 +48,11 @@ struct Mended {
 };
 
 Mended mend(const Log& log, int segment_rows = 4096, std::vector<bool> slides = {}) {
-  CorrectedSource source(std::make_unique<MemorySource>(log, "log", segment_rows), std::move(slides));
+  MemorySource recorded(log, "log", segment_rows);
+  const auto source = corrected(recorded, std::move(slides));
   Mended out;
-  out.log = read_all(source);
-  out.issues = source.issues();
+  out.log = read_all(*source);
+  out.issues = source->issues();
   out.rows_read = log.rows();
   return out;
 }
@@ -257,12 +258,13 @@ TEST(CorrectedSource, WhereSegmentsEndChangesNothing) {
 TEST(CorrectedSource, AfterRewindTheLogIsTheSame) {
   Log log = moving();
   change_measured(log, [](std::vector<double>& v) { std::fill_n(v.begin() + 300, 40, 0.0); });
-  CorrectedSource source(std::make_unique<MemorySource>(log));
-  const Log first = read_all(source);
-  source.rewind();
-  EXPECT_TRUE(source.issues().empty());
-  EXPECT_EQ(comparable(read_all(source).q), comparable(first.q));
-  EXPECT_EQ(source.issues().find("rows_blank")->count, 40);
+  MemorySource recorded(log);
+  const auto source = corrected(recorded);
+  const Log first = read_all(*source);
+  source->rewind();
+  EXPECT_TRUE(source->issues().empty());
+  EXPECT_EQ(comparable(read_all(*source).q), comparable(first.q));
+  EXPECT_EQ(source->issues().find("rows_blank")->count, 40);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/recorder/stopped_columns_source.hpp"
+#include "lib/log/recorder/stopped_columns.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,10 +47,10 @@ struct Read {
 };
 
 Read read(const Log& log, int segment_rows = 4096) {
-  StoppedColumnsSource source(std::make_unique<MemorySource>(log, "log", segment_rows));
+  const auto source = without_stopped_columns(std::make_unique<MemorySource>(log, "log", segment_rows));
   Read out;
-  out.log = read_all(source);
-  out.issues = source.issues();
+  out.log = read_all(*source);
+  out.issues = source->issues();
   return out;
 }
 
