@@ -35,10 +35,13 @@ void keep_every_second(std::vector<double>& values) {
 }  // namespace
 
 TraceTap::TraceTap(LogSource& log, const ResidualGenerator& generator, int max_points)
-    : log_(log), generator_(generator), max_points_(max_points), trace_(empty_trace(generator.joints())) {}
+    : ChangedSource(log),
+      generator_(generator),
+      max_points_(max_points),
+      trace_(empty_trace(generator.joints())) {}
 
 bool TraceTap::next(Log& segment) {
-  if (!log_.next(segment)) {
+  if (!source_.next(segment)) {
     whole_ = trace_;
     return false;
   }
@@ -47,7 +50,7 @@ bool TraceTap::next(Log& segment) {
 }
 
 void TraceTap::rewind() {
-  log_.rewind();
+  source_.rewind();
   state_ = {};
   seen_ = 0;
   stride_ = 1;

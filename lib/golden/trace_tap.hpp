@@ -4,22 +4,19 @@
 #include <cstdint>
 
 #include "lib/golden/observation.hpp"
-#include "lib/log/log_source.hpp"
+#include "lib/log/transformed/changed_source.hpp"
 #include "lib/residual/residual_generator.hpp"
 
 namespace faultline {
 
 /// A log that hands on another one as it is and keeps the trace of what passes: at most `max_points` points,
 /// every prediction of a short log, every second, fourth ... of a longer one. Only what is kept is predicted.
-class TraceTap : public LogSource {
+class TraceTap : public ChangedSource {
  public:
   TraceTap(LogSource& log, const ResidualGenerator& generator, int max_points);
 
   bool next(Log& segment) override;
   void rewind() override;
-  const LogIdentity& identity() const override { return log_.identity(); }
-  const Issues& issues() const override { return log_.issues(); }
-  double share_read() const override { return log_.share_read(); }
   /// Of the latest pass that reached the end of the log; empty before the first one has.
   const Trace& trace() const { return whole_; }
 
@@ -28,7 +25,6 @@ class TraceTap : public LogSource {
   void keep(const Transitions& transitions);
   void thin();
 
-  LogSource& log_;
   const ResidualGenerator& generator_;
   int max_points_;
   TransitionState state_;

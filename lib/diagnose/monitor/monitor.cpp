@@ -14,6 +14,7 @@
 #include "lib/diagnose/relation/relation_findings.hpp"
 #include "lib/explain/explain_at.hpp"
 #include "lib/log/log.hpp"
+#include "lib/log/transformed/changed_source.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"
 #include "lib/residual/relation/relation_detector.hpp"
 #include "lib/residual/residuals.hpp"
@@ -22,25 +23,20 @@ namespace faultline {
 namespace {
 
 /// A log that passes each segment to a callback as it is read.
-class TappedSource : public LogSource {
+class TappedSource : public ChangedSource {
  public:
   using Tap = std::function<void(const Log& segment)>;
 
-  /// `source` has no other reader and outlives this. After a rewind, `tap` gets the segments once more.
-  TappedSource(LogSource& source, Tap tap) : source_(source), tap_(std::move(tap)) {}
+  /// After a rewind, `tap` gets the segments once more.
+  TappedSource(LogSource& source, Tap tap) : ChangedSource(source), tap_(std::move(tap)) {}
 
   bool next(Log& segment) override {
     if (!source_.next(segment)) return false;
     tap_(segment);
     return true;
   }
-  void rewind() override { source_.rewind(); }
-  const LogIdentity& identity() const override { return source_.identity(); }
-  const Issues& issues() const override { return source_.issues(); }
-  double share_read() const override { return source_.share_read(); }
 
  private:
-  LogSource& source_;
   Tap tap_;
 };
 
