@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/core/statistics.hpp"
+#include "lib/log/time_axis.hpp"
 
 namespace faultline {
 namespace {
@@ -58,17 +59,11 @@ double white_noise(std::span<const double> values) {
   return bends.empty() ? 0.0 : upper_median(bends) / kMedianOfAbs / std::sqrt(kBendGain);
 }
 
-double usual_period(std::span<const double> time) {
-  std::vector<double> steps;
-  for (std::size_t k = 1; k < time.size(); ++k) steps.push_back(time[k] - time[k - 1]);
-  return upper_median(steps);
-}
-
 }  // namespace
 
 bool is_difference(std::span<const double> time, std::span<const double> q, std::span<const double> dq) {
   if (dq.size() != q.size() || q.size() < kVelocityFewestRows) return false;
-  const Joint joint{time, q, dq, usual_period(time)};
+  const Joint joint{time, q, dq, median_step(time)};
   if (!(joint.period > 0.0)) return false;
   const double close = kSameAsDifference * white_noise(q) / joint.period;
   for (const bool by_period : {true, false})
@@ -80,7 +75,7 @@ bool is_difference(std::span<const double> time, std::span<const double> q, std:
 VelocityDelay velocity_delay(std::span<const double> time, std::span<const double> q,
                              std::span<const double> dq) {
   if (dq.size() != q.size() || q.size() < kVelocityFewestRows) return {};
-  const double period = usual_period(time);
+  const double period = median_step(time);
   if (!(period > 0.0)) return {};
   const auto half = static_cast<std::size_t>(std::max(1L, std::lround(kHalfDifference_s / period)));
   const double span_s = static_cast<double>(half) * period, widest_s = 2.0 * kWidest * span_s;

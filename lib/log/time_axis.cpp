@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-6;    // relative to the length of a gap
 
 }  // namespace
 
-double median_step(const std::vector<double>& time) {
+double median_step(std::span<const double> time) {
   if (time.size() < 2) return std::nan("");
   std::vector<double> steps(time.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = time[i + 1] - time[i];
@@ -46,7 +46,7 @@ void TimeAxisPass::judge_step(double before, double now) {
   ++judged_;
   const double step = now - before;
   if (step > kGapFactor * axis_.period_s) {
-    if (axis_.gaps++ == 0) axis_.first_gap_row = judged_, axis_.first_gap_s = before;
+    ++axis_.gaps;
     if (axis_.listed_gaps.size() < kListedGaps) axis_.listed_gaps.push_back({judged_, before, step});
     axis_.longest_gap_s = std::max(axis_.longest_gap_s, step);
     axis_.in_gaps_s += step;
@@ -77,8 +77,6 @@ TimeAxis without_run_breaks(TimeAxis axis, const std::vector<LogRun>& runs) {
     kept.push_back(gap);
   }
   axis.listed_gaps = std::move(kept);
-  axis.first_gap_row = axis.listed_gaps.empty() ? 0 : axis.listed_gaps.front().row;
-  axis.first_gap_s = axis.listed_gaps.empty() ? 0.0 : axis.listed_gaps.front().start_s;
   return axis;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "lib/log/log_run.hpp"
@@ -27,9 +28,7 @@ struct TimeAxis {
   double start_s = std::numeric_limits<double>::quiet_NaN();
   double end_s = std::numeric_limits<double>::quiet_NaN();
   std::int64_t rows = 0;
-  std::int64_t gaps = 0;           ///< steps longer than three periods
-  std::int64_t first_gap_row = 0;  ///< row before the first gap, from 1
-  double first_gap_s = 0.0;        ///< time before the first gap
+  std::int64_t gaps = 0;  ///< steps longer than three periods
   double longest_gap_s = 0.0;
   double in_gaps_s = 0.0;              ///< time inside all gaps
   std::int64_t uneven_steps = 0;       ///< other steps that differ by more than a fifth of a period
@@ -59,6 +58,6 @@ class TimeAxisPass {
 TimeAxis without_run_breaks(TimeAxis axis, const std::vector<LogRun>& runs);
 
 /// Returns the median of the steps between increasing times; NaN for fewer than two times.
-double median_step(const std::vector<double>& time);
+double median_step(std::span<const double> time);
 
 }  // namespace faultline

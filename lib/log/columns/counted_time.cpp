@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/core/statistics.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/time_axis.hpp"
 #include "lib/log/units.hpp"
@@ -59,10 +60,7 @@ double seconds_by_motion(const std::vector<double>& time, const std::vector<Name
       if (!std::isnan(seconds)) estimates.push_back(seconds);
     }
   }
-  if (estimates.empty()) return kUnknown;
-  std::nth_element(estimates.begin(), estimates.begin() + static_cast<std::ptrdiff_t>(estimates.size() / 2),
-                   estimates.end());
-  return estimates[estimates.size() / 2];
+  return upper_median_of(estimates);
 }
 
 bool is_known_unit(const char* unit, double seconds) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "lib/log/issues/velocity_issues.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 #include "lib/core/issue.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/log/channel_names.hpp"
-#include "lib/log/issues/quality_issues.hpp"
 
 namespace faultline {
 namespace {
@@ -38,10 +39,6 @@ std::string guess_of(double factor, bool turns, bool slides) {
   return "their units, a gear ratio or the sample period differ";
 }
 
-bool is_judged(const VelocityAgreement& agreement) {
-  return agreement.verdict == VelocityVerdict::agrees || agreement.verdict == VelocityVerdict::scaled;
-}
-
 /// Returns the factor between positions and the integrals of velocities that all moving joints, at least two,
 /// share; 1 if they share none, or if a joint agrees or contradicts.
 double common_factor(const std::vector<VelocityAgreement>& agreements) {
@@ -49,7 +46,7 @@ double common_factor(const std::vector<VelocityAgreement>& agreements) {
   for (const VelocityAgreement& agreement : agreements) {
     if (agreement.verdict == VelocityVerdict::contradicts || agreement.verdict == VelocityVerdict::agrees)
       return 1.0;
-    if (is_judged(agreement)) factors.push_back(agreement.factor);
+    if (agreement.verdict == VelocityVerdict::scaled) factors.push_back(agreement.factor);
   }
   if (factors.size() < 2) return 1.0;
   std::sort(factors.begin(), factors.end());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "lib/log/log_channels.hpp"
 #include "lib/log/time_axis.hpp"
@@ -52,7 +53,7 @@ bool EmptyRowsSource::read_head() {
   started_ = true;
   for (Log segment; head_.rows() < kHeadRows && source_.next(segment);) append(head_, segment);
   const auto rows = std::min(head_.rows(), kHeadRows);
-  period_s_ = median_step({head_.time.begin(), head_.time.begin() + rows});
+  period_s_ = median_step(std::span(head_.time).first(static_cast<std::size_t>(rows)));
   double deviations = 0.0;
   int steps = 0;
   for (int k = 1; k < rows; ++k) {
