@@ -24,7 +24,9 @@ using ColumnMap = std::map<std::string, ColumnSpec>;
 /// The time of a message that the log uses: that of its header, or that of its receipt by the recorder.
 enum class MessageTime { header, receipt };
 
-const char* to_string(MessageTime time);
+constexpr const char* to_string(MessageTime time) {
+  return time == MessageTime::header ? "header" : "receipt";
+}
 
 /// The part of a recording of messages that is the log.
 struct RecordingChoice {

@@ -39,6 +39,10 @@ class LogSource {
 };
 
 /// Returns all remaining rows as one segment; for logs known to be small.
-Log read_all(LogSource& source);
+inline Log read_all(LogSource& source) {
+  Log all;
+  for (Log segment; source.next(segment);) append(all, segment);
+  return all;
+}
 
 }  // namespace faultline

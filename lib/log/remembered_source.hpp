@@ -12,14 +12,10 @@
 
 namespace faultline {
 
-struct RememberOptions {
-  std::int64_t budget_bytes = std::int64_t{1} << 30;  ///< for all logs that share one LogMemory
-};
-
 /// Budget of bytes shared by remembered logs; thread-safe.
 class LogMemory {
  public:
-  explicit LogMemory(const RememberOptions& options = {}) : free_bytes_(options.budget_bytes) {}
+  explicit LogMemory(std::int64_t budget_bytes = std::int64_t{1} << 30) : free_bytes_(budget_bytes) {}
 
   /// Reserves bytes; returns false, and reserves nothing, if fewer are free.
   bool take(std::int64_t bytes);
@@ -77,8 +73,7 @@ class RememberedSource : public LogSource {
 class RememberedLogs {
  public:
   /// `logs` are at their first rows, have no other reader and outlive this.
-  explicit RememberedLogs(std::span<LogSource* const> logs, const RememberOptions& options = {})
-      : memory_(options) {
+  explicit RememberedLogs(std::span<LogSource* const> logs) {
     for (LogSource* log : logs) sources_.push_back(&remembered_.emplace_back(*log, memory_));
   }
 

@@ -128,7 +128,7 @@ TEST_F(RememberedLog, BeyondTheBudgetIsReadAgainAndKeepsNothing) {
   const std::int64_t segment_bytes = 4 * 6 * sizeof(double);
   for (const std::int64_t budget : {std::int64_t{0}, std::int64_t{1}, 3 * segment_bytes, 6 * segment_bytes}) {
     CountingSource source = opened();
-    LogMemory memory(RememberOptions{budget});
+    LogMemory memory(budget);
     RememberedSource log(source, memory);
     for (int pass = 1; pass <= 3; ++pass) {
       EXPECT_EQ(seen(log), pass == 1 ? plain() : plain_again()) << budget << " bytes, pass " << pass;
@@ -143,7 +143,7 @@ TEST_F(RememberedLog, ALogThatDoesNotFitLeavesTheMemoryToAnother) {
   const std::int64_t used = bytes_kept();
   ASSERT_GT(used, 0);
   CountingSource first = opened(), second = opened();
-  LogMemory both(RememberOptions{used + used / 2});
+  LogMemory both(used + used / 2);
   {
     RememberedSource kept(first, both), forgotten(second, both);
     read_all(kept);
@@ -180,7 +180,7 @@ TEST(RememberedSource, AnEmptyLogIsEmptyAgain) {
 }
 
 TEST(LogMemory, GivesNoMoreThanItHas) {
-  LogMemory memory(RememberOptions{10});
+  LogMemory memory(10);
   EXPECT_TRUE(memory.take(7));
   EXPECT_FALSE(memory.take(4));
   EXPECT_TRUE(memory.take(3));
