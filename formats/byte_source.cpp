@@ -8,13 +8,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 
 #include "lib/core/error.hpp"
 
 namespace faultline {
 namespace {
-
-constexpr std::size_t kBytesHeadBytes = 1 << 16;
 
 [[noreturn]] void fail_file(const std::string& path, const std::string& what) {
   throw Error(ErrorCode::input, path, what);
@@ -33,7 +32,7 @@ FileBytes::FileBytes(std::string path, bool hashed) : path_(std::move(path)) {
   if (hashed) hash_.emplace();
   open();
   try {
-    read_head(kBytesHeadBytes);
+    read_head(kHeadBytes);
   } catch (...) {
     close();
     throw;
@@ -241,6 +240,11 @@ void ByteWindow::skip(std::uint64_t size) {
     advance(now);
     size -= now;
   }
+}
+
+std::uint64_t ByteWindow::left() const {
+  if (source_.compression() || source_.file_size() == 0) return std::numeric_limits<std::uint64_t>::max();
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, source_.file_size() - position_));
 }
 
 std::int64_t ByteWindow::drain() {

@@ -71,14 +71,22 @@ class FileBytes {
 /// The bytes inside a file that is compressed as a whole, from front to back, in memory of fixed size.
 class Unpacker {
  public:
+  Unpacker(const char* name, double byte_ns) : name_(name), byte_ns_(byte_ns) {}
   virtual ~Unpacker() = default;
-  virtual const char* name() const = 0;
+  const char* name() const { return name_; }
   /// Usual time to unpack a byte, ns.
-  virtual double byte_ns() const = 0;
+  double byte_ns() const { return byte_ns_; }
   /// Copies up to `size` of the next bytes to `to`; 0 at their end or at damage.
   virtual std::size_t read(char* to, std::size_t size) = 0;
   /// After the end: what was wrong with the compressed bytes and its effect; empty for nothing.
-  virtual const std::string& damage() const = 0;
+  const std::string& damage() const { return damage_; }
+
+ protected:
+  std::string damage_;
+
+ private:
+  const char* name_;
+  double byte_ns_;
 };
 
 /// Returns an unpacker for a file that begins as gzip or zstd, which reads from its beginning; null for any
@@ -145,6 +153,8 @@ class ByteWindow {
   void skip(std::uint64_t size);
   /// Bytes advanced over since the beginning.
   std::int64_t position() const { return position_; }
+  /// Bytes of the file after those; the largest number if the file is compressed or a pipe.
+  std::uint64_t left() const;
   /// Reads to the end of the file; returns the number of remaining bytes, including the view.
   std::int64_t drain();
   /// Starts again, after the source was rewound.

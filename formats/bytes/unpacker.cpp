@@ -14,13 +14,21 @@
 namespace faultline {
 namespace {
 
-/// Buffers the compressed bytes of a file for a library that consumes any number of those in view.
-class PackedInput {
- public:
-  explicit PackedInput(FileBytes& file) : file_(file), bytes_(kAtOnce, '\0') {}
+constexpr std::string_view kGzipMagic = "\x1F\x8B\x08";
+constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
+constexpr int kGzipWindow = 15 + 16;          // largest window, gzip header (zlib.h)
+constexpr std::size_t kMostAtOnce = 1 << 30;  // bytes that are unpacked at once
+constexpr unsigned char kFirstByte = 0x1F;    // of a gzip member
+
+/// Buffers the compressed bytes of a file for a library that consumes any number of those in view, and notes
+/// how they end.
+class BufferedUnpacker : public Unpacker {
+ protected:
+  BufferedUnpacker(FileBytes& file, const char* name, double byte_ns)
+      : Unpacker(name, byte_ns), file_(file), bytes_(kAtOnce, '\0') {}
 
   /// Bytes not yet taken; reads more when there are none. Empty at the end of the file.
-  std::string_view view() {
+  std::string_view packed() {
     if (begin_ == end_) {
       begin_ = 0;
       end_ = file_.read(bytes_.data(), bytes_.size());
@@ -31,8 +39,15 @@ class PackedInput {
     begin_ += size;
     position_ += static_cast<std::int64_t>(size);
   }
-  /// Bytes taken since the beginning.
-  std::int64_t position() const { return position_; }
+  bool has_ended() const { return ended_; }
+  /// Ends the unpacked bytes; `why` is the damage, empty for none.
+  void end(const char* why) {
+    ended_ = true;
+    if (*why == '\0') return;
+    damage_ =
+        fmt::format("the {} stream: {} at byte {}; the data before it are read, the data after it are lost",
+                    name(), why, position_);
+  }
 
  private:
   static constexpr std::size_t kAtOnce = 1 << 16;
@@ -40,114 +55,80 @@ class PackedInput {
   FileBytes& file_;
   std::string bytes_;
   std::size_t begin_ = 0, end_ = 0;
-  std::int64_t position_ = 0;
+  std::int64_t position_ = 0;  ///< bytes taken since the beginning
+  bool ended_ = false;
 };
 
-constexpr std::string_view kGzipMagic = "\x1F\x8B\x08";
-constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
-constexpr int kGzipWindow = 15 + 16;          // largest window, gzip header (zlib.h)
-constexpr std::size_t kMostAtOnce = 1 << 30;  // bytes that are unpacked at once
-constexpr unsigned char kFirstByte = 0x1F;    // of a gzip member
-
 /// Unpacks gzip; one member may follow another.
-class GzipUnpacker : public Unpacker {
+class GzipUnpacker : public BufferedUnpacker {
  public:
-  explicit GzipUnpacker(FileBytes& file) : input_(file) {
+  explicit GzipUnpacker(FileBytes& file) : BufferedUnpacker(file, "gzip", kDeflateByte_ns) {
     if (inflateInit2(&stream_, kGzipWindow) != Z_OK) throw std::bad_alloc();
   }
   ~GzipUnpacker() override { inflateEnd(&stream_); }
   GzipUnpacker(const GzipUnpacker&) = delete;
   GzipUnpacker& operator=(const GzipUnpacker&) = delete;
 
-  const char* name() const override { return "gzip"; }
-  double byte_ns() const override { return kDeflateByte_ns; }
-  const std::string& damage() const override { return damage_; }
-
   std::size_t read(char* to, std::size_t size) override {
     size = std::min(size, kMostAtOnce);
     stream_.next_out = reinterpret_cast<Bytef*>(to);
     stream_.avail_out = static_cast<uInt>(size);
-    while (!ended_ && stream_.avail_out == size && size > 0) step();
+    while (!has_ended() && stream_.avail_out == size && size > 0) step();
     return size - stream_.avail_out;
   }
 
  private:
   void step() {
-    const std::string_view packed = input_.view();
-    if (between_members_ && (packed.empty() || static_cast<unsigned char>(packed[0]) != kFirstByte))
-      return end(packed.empty() ? "" : "bytes that are not gzip follow");
-    if (packed.empty()) return end("the file is cut");
+    const std::string_view view = packed();
+    if (between_members_ && (view.empty() || static_cast<unsigned char>(view[0]) != kFirstByte))
+      return end(view.empty() ? "" : "bytes that are not gzip follow");
+    if (view.empty()) return end("the file is cut");
     if (between_members_) inflateReset(&stream_);
     between_members_ = false;
-    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-    stream_.avail_in = static_cast<uInt>(packed.size());
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(view.data()));
+    stream_.avail_in = static_cast<uInt>(view.size());
     const int result = inflate(&stream_, Z_NO_FLUSH);
-    input_.take(packed.size() - stream_.avail_in);
+    take(view.size() - stream_.avail_in);
     if (result == Z_STREAM_END)
       between_members_ = true;
     else if (result != Z_OK && result != Z_BUF_ERROR)
       end("the compressed bytes are damaged");
   }
 
-  void end(const char* why) {
-    ended_ = true;
-    if (*why == '\0') return;
-    damage_ =
-        fmt::format("the gzip stream: {} at byte {}; the data before it are read, the data after it are lost",
-                    why, input_.position());
-  }
-
-  PackedInput input_;
   z_stream stream_{};
   bool between_members_ = false;
-  bool ended_ = false;
-  std::string damage_;
 };
 
 /// Unpacks zstd; one frame may follow another.
-class ZstdUnpacker : public Unpacker {
+class ZstdUnpacker : public BufferedUnpacker {
  public:
-  explicit ZstdUnpacker(FileBytes& file) : input_(file), stream_(ZSTD_createDStream()) {
+  explicit ZstdUnpacker(FileBytes& file)
+      : BufferedUnpacker(file, "zstd", kZstdByte_ns), stream_(ZSTD_createDStream()) {
     if (!stream_) throw std::bad_alloc();
   }
   ~ZstdUnpacker() override { ZSTD_freeDStream(stream_); }
   ZstdUnpacker(const ZstdUnpacker&) = delete;
   ZstdUnpacker& operator=(const ZstdUnpacker&) = delete;
 
-  const char* name() const override { return "zstd"; }
-  double byte_ns() const override { return kZstdByte_ns; }
-  const std::string& damage() const override { return damage_; }
-
   std::size_t read(char* to, std::size_t size) override {
     ZSTD_outBuffer out{to, size, 0};
-    while (!ended_ && out.pos == 0 && size > 0) step(out);
+    while (!has_ended() && out.pos == 0 && size > 0) step(out);
     return out.pos;
   }
 
  private:
   void step(ZSTD_outBuffer& out) {
-    const std::string_view packed = input_.view();
-    ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+    const std::string_view view = packed();
+    ZSTD_inBuffer in{view.data(), view.size(), 0};
     const std::size_t result = ZSTD_decompressStream(stream_, &out, &in);
-    input_.take(in.pos);
+    take(in.pos);
     if (ZSTD_isError(result)) return end("the compressed bytes are damaged");
-    if (packed.empty() && out.pos == 0) return end(inside_frame_ ? "the file is cut" : "");
+    if (view.empty() && out.pos == 0) return end(inside_frame_ ? "the file is cut" : "");
     if (in.pos > 0 || result == 0) inside_frame_ = result != 0;
   }
 
-  void end(const char* why) {
-    ended_ = true;
-    if (*why == '\0') return;
-    damage_ =
-        fmt::format("the zstd stream: {} at byte {}; the data before it are read, the data after it are lost",
-                    why, input_.position());
-  }
-
-  PackedInput input_;
   ZSTD_DStream* stream_;
   bool inside_frame_ = false;
-  bool ended_ = false;
-  std::string damage_;
 };
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "formats/bytes/little_endian.hpp"
 #include "formats/bytes/unpack_block.hpp"
@@ -63,18 +62,12 @@ int McapTopics::topic_of(std::uint16_t channel) const {
   return found == numbers().topic_of_channel.end() ? -1 : found->second;
 }
 
-void McapRecords::start(std::int64_t file_size) {
-  file_size_ = file_size;
+void McapRecords::start() {
   record_size_ = 0;
   last_time_ = 0;
   cut_ = too_large_ = finished_ = damaged_ = behind_footer_ = false;
   recordings_ = 0;
   recording_begin_ = 0;
-}
-
-std::uint64_t McapRecords::left() const {
-  if (file_size_ <= 0) return std::numeric_limits<std::uint64_t>::max();
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, file_size_ - bytes_.position()));
 }
 
 /// True when a record that find_record() can recognise is at the front of `bytes`.
@@ -83,7 +76,7 @@ bool McapRecords::is_record(std::string_view bytes) const {
   ByteCursor head(bytes);
   const auto op = static_cast<McapOp>(head.take<unsigned char>());
   const auto size = head.take<std::uint64_t>();
-  if (!head.ok() || size > left()) return false;
+  if (!head.ok() || size > bytes_.left()) return false;
   if (op == McapOp::chunk) return is_chunk(head.rest(), size);
   if (op == McapOp::data_end) return size == kDataEndSize;
   if (op == McapOp::footer)
@@ -181,11 +174,11 @@ bool McapRecords::take_record() {
   const auto op = head.take<unsigned char>();
   const auto size = head.take<std::uint64_t>();
   op_ = static_cast<McapOp>(op);
-  too_large_ = is_mcap_op(op) && size > kLargestContent && size <= left() && is_likely(op_, size);
+  too_large_ = is_mcap_op(op) && size > kLargestContent && size <= bytes_.left() && is_likely(op_, size);
   const bool whole = is_mcap_op(op) && size <= kLargestContent && bytes_.fill(kMcapRecordHead + size);
   // A chunk in which the file ends still holds the messages before the end.
-  cut_ = !whole && is_mcap_op(op) && size <= kLargestContent && size > left() && op_ == McapOp::chunk &&
-         is_chunk(bytes_.view().substr(kMcapRecordHead), size);
+  cut_ = !whole && is_mcap_op(op) && size <= kLargestContent && size > bytes_.left() &&
+         op_ == McapOp::chunk && is_chunk(bytes_.view().substr(kMcapRecordHead), size);
   if (!whole && !cut_ && !too_large_) return false;
   size_ = std::min<std::size_t>(size, bytes_.view().size() - kMcapRecordHead);
   record_size_ = kMcapRecordHead + (too_large_ ? size : size_);

@@ -17,14 +17,13 @@ namespace faultline {
 /// Schemas and channels of an MCAP file, in the order in which they are met.
 class McapTopics {
  public:
-  /// `path` is used in messages.
-  explicit McapTopics(const std::string& path) : topics_(path) {}
+  /// Adds the topics of the channels to `topics`, which must outlive the object.
+  explicit McapTopics(TopicList& topics) : topics_(topics) {}
   /// Selects the recording of the file, from 0, whose numbers follow; each recording has its own.
   void start_recording(std::size_t recording);
   /// Adds the content of a schema or channel record; damaged and repeated ones are ignored.
   void add_schema(std::string_view content);
   void add_channel(std::string_view content);
-  const std::vector<Topic>& all() const { return topics_.all(); }
   /// Returns the topic of a channel id; -1 for an unknown one.
   int topic_of(std::uint16_t channel) const;
 
@@ -39,7 +38,7 @@ class McapTopics {
 
   std::vector<Numbers> recordings_ = std::vector<Numbers>(1);
   std::size_t recording_ = 0;
-  TopicList topics_;
+  TopicList& topics_;
 };
 
 /// The records at the top level of an MCAP file in their order. After damage they continue at the next record
@@ -50,8 +49,8 @@ class McapRecords {
   McapRecords(ByteWindow& bytes, const McapTopics& topics, Issues& issues)
       : bytes_(bytes), topics_(topics), issues_(issues) {}
 
-  /// Begins at the front of the bytes; `file_size` is 0 when it is not known.
-  void start(std::int64_t file_size);
+  /// Begins at the front of the bytes.
+  void start();
   /// Moves to the next record; false at the end of the file or of its data.
   bool next();
   McapOp op() const { return op_; }
@@ -74,7 +73,6 @@ class McapRecords {
   void met_time(std::uint64_t log_time_ns) { last_time_ = log_time_ns; }
 
  private:
-  std::uint64_t left() const;
   bool is_record(std::string_view bytes) const;
   bool find_record();
   void end();
@@ -87,7 +85,6 @@ class McapRecords {
   ByteWindow& bytes_;
   const McapTopics& topics_;
   Issues& issues_;
-  std::int64_t file_size_ = 0;
   McapOp op_{};
   std::size_t size_ = 0;           ///< of the content in view
   std::uint64_t record_size_ = 0;  ///< with its head; skipped at the next call

@@ -159,65 +159,40 @@ std::optional<BlockPacking> mcap_packing(std::string_view name) {
   return std::nullopt;
 }
 
-class McapSource : public MessageSource {
+class McapSource : public ChunkedSource {
  public:
   explicit McapSource(std::unique_ptr<ByteSource> bytes)
-      : MessageSource(std::move(bytes)),
-        window_(*bytes_),
-        topics_(bytes_->path()),
-        records_(window_, topics_, issues_) {
-    records_.start(size_if_known());
-  }
-
-  const char* format() const override { return "mcap"; }
-  const std::vector<Topic>& topics() const override { return topics_.all(); }
-
-  bool next(Message& message) override {
-    while (!at_end_) {
-      if (lost_.next(message)) return true;
-      if (std::string_view content; chunk_.next(content)) {
-        if (read_message(content, chunk_doubtful_, message)) return true;
-      } else if (!next_record(message)) {
-        end();
-      } else if (given_) {
-        given_ = false;
-        return true;
-      }
-    }
-    return false;
-  }
-
-  void rewind() override {
-    bytes_->rewind();
-    window_.clear();
-    issues_ = {};
-    index_ = {};
-    chunk_.close();
-    lost_ = {};
-    given_ = at_end_ = false;
-    records_.start(size_if_known());
+      : ChunkedSource(std::move(bytes), "mcap"), channels_(topics_), records_(window_, channels_, issues_) {
+    start();
   }
 
  private:
-  std::int64_t size_if_known() const { return bytes_->compression() ? 0 : bytes_->file_size(); }
+  void start() override {
+    index_ = {};
+    chunk_.close();
+    records_.start();
+  }
 
-  /// Takes the next record; `given_` is true when it is a message. False at the end.
-  bool next_record(Message& message) {
-    if (!records_.next()) return false;
+  Taken next_inside(Message& message) override {
+    std::string_view content;
+    return chunk_.next(content) ? read_message(content, is_doubtful(), message) : Taken::nothing;
+  }
+
+  Taken next_record(Message& message) override {
+    if (!records_.next()) return Taken::nothing;
     const std::string_view content = records_.content();
     switch (records_.op()) {
       case McapOp::header:
         begin_recording();
         break;
       case McapOp::schema:
-        topics_.add_schema(content);
+        channels_.add_schema(content);
         break;
       case McapOp::channel:
-        topics_.add_channel(content);
+        channels_.add_channel(content);
         break;
       case McapOp::message:
-        given_ = read_message(content, records_.is_too_large(), message);
-        break;
+        return read_message(content, records_.is_too_large(), message);
       case McapOp::chunk:
         open_chunk(content);
         break;
@@ -236,14 +211,14 @@ class McapSource : public MessageSource {
       default:
         break;
     }
-    return true;
+    return Taken::other;
   }
 
   void begin_recording() {
     if (records_.recordings() > 1)
       index_.report(records_.damaged() || issues_.find("chunk_damaged"), issues_);
     index_ = {};
-    topics_.start_recording(std::max<std::size_t>(records_.recordings(), 1) - 1);
+    channels_.start_recording(std::max<std::size_t>(records_.recordings(), 1) - 1);
   }
 
   void read_provenance(std::string_view content) {
@@ -255,25 +230,18 @@ class McapSource : public MessageSource {
     issues_.add(issue_from_provenance(is_ours && map.ok() && record.ok() ? text : ""));
   }
 
-  bool read_message(std::string_view content, bool lost, Message& message) {
+  Taken read_message(std::string_view content, bool lost, Message& message) {
     ByteCursor record(content);
     const auto channel = record.take<std::uint16_t>();
     record.take<std::uint32_t>();
     const auto log_time = record.take<std::uint64_t>();
     record.take<std::uint64_t>();
-    if (!record.ok()) return false;
-    bytes_->spend(kMessageWork_ns);
+    if (!record.ok()) return Taken::other;
     index_.met_message();
-    lost_.met(channel);
-    message = {topics_.topic_of(channel), static_cast<std::int64_t>(log_time), record.rest(), lost};
-    if (message.topic >= 0) {
-      records_.met_time(log_time);
-      return true;
-    }
-    issues_.add({"channel_unknown", "", Severity::warning,
-                 fmt::format("skipped a message of channel {}: the file does not declare its topic and type",
-                             channel)});
-    return false;
+    const int topic = channels_.topic_of(channel);
+    if (topic >= 0) records_.met_time(log_time);
+    return give({topic, static_cast<std::int64_t>(log_time), record.rest(), lost}, "channel", channel,
+                message);
   }
 
   void open_chunk(std::string_view content) {
@@ -285,34 +253,21 @@ class McapSource : public MessageSource {
     const auto packing = mcap_packing(chunk.text());
     chunk.take<std::uint64_t>();
     chunk_.close();
-    lost_.begin_chunk();
-    chunk_doubtful_ = false;
-    if (!chunk.ok() || !packing) return lose_chunk("its header is damaged or names an unknown compression");
+    begin_chunk();
+    if (!chunk.ok() || !packing)
+      return lose_chunk("its header is damaged or names an unknown compression", true);
     if (records_.is_too_large() || size > kLargestBlock)
-      return lose_chunk(too_large_block(std::max<std::uint64_t>(size, records_.size())));
+      return lose_chunk(too_large_block(std::max<std::uint64_t>(size, records_.size())), true);
     index_.met_chunk(records_.begin() - records_.recording_begin(),
                      static_cast<std::int64_t>(kMcapRecordHead + content.size()));
     std::string_view inside = chunk.rest();
-    bool sound = inside.size() == size;
-    if (*packing != BlockPacking::none) {
-      sound = unpack_block(*packing, inside, size, unpacked_);
-      inside = unpacked_.view();
-      bytes_->spend(block_work_ns(*packing, static_cast<std::int64_t>(inside.size())));
-    }
+    const bool sound = unpack(*packing, size, inside);
     const bool wrong = sound && checksum != 0 && crc32_of(inside) != checksum;
     if (records_.is_cut())
       lose_chunk("the file ends inside it; the data before the cut are read", false);
     else if (!sound || wrong)
-      lose_chunk(wrong ? "its checksum does not match" : "it cannot be unpacked to its end");
-    chunk_.begin(inside, topics_);
-  }
-
-  void lose_chunk(const std::string& why, bool doubtful = true) {
-    chunk_doubtful_ = doubtful;
-    lost_.lose();
-    issues_.add({"chunk_damaged", "", Severity::severe,
-                 fmt::format("the chunk at byte {}: {}{}", records_.begin(), why,
-                             doubtful ? "; its messages were left out" : "")});
+      lose_chunk(wrong ? "its checksum does not match" : "it cannot be unpacked to its end", true);
+    chunk_.begin(inside, channels_);
   }
 
   /// Counts the messages of a damaged chunk from the index after it.
@@ -321,25 +276,15 @@ class McapSource : public MessageSource {
     const auto channel = record.take<std::uint16_t>();
     constexpr std::size_t kEntry = 16;
     const std::size_t messages = record.text().size() / kEntry;
-    if (record.ok()) lost_.compare(channel, messages, topics_.topic_of(channel));
+    if (record.ok()) compare(channel, messages, channels_.topic_of(channel));
   }
 
-  void end() {
-    at_end_ = true;
-    bytes_->read_to_end();
-    index_.report(records_.damaged() || issues_.find("chunk_damaged"), issues_);
-    issues_.merge(bytes_->issues());
-  }
+  void check_end() override { index_.report(records_.damaged() || issues_.find("chunk_damaged"), issues_); }
 
-  ByteWindow window_;
-  McapTopics topics_;
+  McapTopics channels_;
   McapRecords records_;
   McapIndex index_;
-  BlockBytes unpacked_;          ///< the open chunk, if it was compressed
-  McapChunk chunk_;              ///< the open one
-  bool chunk_doubtful_ = false;  ///< its bytes may be wrong
-  LostMessages lost_;
-  bool given_ = false, at_end_ = false;
+  McapChunk chunk_;  ///< the open one
 };
 
 }  // namespace

@@ -98,13 +98,12 @@ std::vector<int> order_joints(const JointStream& stream, const RecordingChoice& 
     return order;
   }
   for (const std::string& joint : choice.joints) {
-    const auto found = std::find(stream.joints.begin(), stream.joints.end(), joint);
-    if (found == stream.joints.end())
+    order.push_back(index_of(stream.joints, joint));
+    if (order.back() < 0)
       throw Error(ErrorCode::input, path,
                   "has no joint " + quoted(joint) +
                       ", although the robot file names it in [log] joints; the messages have " +
                       listed(stream.joints));
-    order.push_back(static_cast<int>(found - stream.joints.begin()));
   }
   return order;
 }
@@ -174,10 +173,7 @@ class Layouter {
   bool is_rival(const JointStream& stream, const JointStream& main) const {
     const std::string& topic = topics_[stream.topic].name;
     if (!stream.position || is_command(topic) || is_computed(topic) || topic == kExtraTopic) return false;
-    return stream.topic == main.topic ||
-           std::any_of(stream.joints.begin(), stream.joints.end(), [&](const std::string& joint) {
-             return std::find(main.joints.begin(), main.joints.end(), joint) != main.joints.end();
-           });
+    return stream.topic == main.topic || share_a_joint(stream.joints, main.joints);
   }
 
   void leave_out(int s) {
@@ -202,10 +198,8 @@ class Layouter {
   std::vector<int> same_joints(const JointStream& stream, const std::vector<int>& order) const {
     std::vector<int> same;
     for (const int joint : order) {
-      const std::string& name = streams_[layout_.main].joints[joint];
-      const auto found = std::find(stream.joints.begin(), stream.joints.end(), name);
-      if (found == stream.joints.end()) return {};
-      same.push_back(static_cast<int>(found - stream.joints.begin()));
+      same.push_back(index_of(stream.joints, streams_[layout_.main].joints[joint]));
+      if (same.back() < 0) return {};
     }
     return same;
   }

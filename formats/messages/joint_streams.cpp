@@ -12,15 +12,6 @@ constexpr std::size_t kMostPatterns = 256;
 constexpr std::size_t kMostJoints = 256;
 constexpr std::size_t kMostNameBytes = 1 << 15;  ///< bytes of the names in a message
 
-int index_of(const std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
-}
-
-bool share_a_joint(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  return std::any_of(a.begin(), a.end(), [&](const std::string& name) { return index_of(b, name) >= 0; });
-}
-
 void add_to(JointStream& stream, const JointStream& more) {
   for (const std::string& joint : more.joints)
     if (stream.joints.size() < kMostJoints && index_of(stream.joints, joint) < 0)
@@ -43,6 +34,15 @@ std::vector<std::string> names_in(const JointMessage& state, const JointStateDec
 }
 
 }  // namespace
+
+int index_of(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+bool share_a_joint(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  return std::any_of(a.begin(), a.end(), [&](const std::string& name) { return index_of(b, name) >= 0; });
+}
 
 JointStateDecoder* JointStreams::decoder_of(const Topic& topic, int index) {
   const auto at = static_cast<std::size_t>(index);

@@ -63,6 +63,10 @@ struct JointPlacing {
   bool complete = false;         ///< all joints of the stream are present, and no others
 };
 
+/// Returns the index of a joint's name; -1 for none.
+int index_of(const std::vector<std::string>& names, const std::string& name);
+bool share_a_joint(const std::vector<std::string>& a, const std::vector<std::string>& b);
+
 /// Finds the streams of a recording and assigns its messages to them.
 class JointStreams {
  public:

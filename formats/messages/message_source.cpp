@@ -29,24 +29,71 @@ int TopicList::add(Topic topic) {
   return next;
 }
 
-void LostMessages::begin_chunk() {
-  met_.clear();
-  lossy_ = false;
-}
-
-void LostMessages::compare(std::uint32_t channel, std::size_t messages, int topic) {
-  if (!lossy_ || topic < 0) return;
-  for (std::size_t& met = met_[channel]; met < messages; ++met) topics_.push_back(topic);
-}
-
-bool LostMessages::next(Message& message) {
-  if (given_ == topics_.size()) {
-    topics_.clear();
-    given_ = 0;
-    return false;
+bool ChunkedSource::next(Message& message) {
+  while (!at_end_) {
+    if (!missing_.empty()) {
+      message = {missing_.front(), 0, {}, true};
+      missing_.pop_front();
+      return true;
+    }
+    Taken taken = next_inside(message);
+    if (taken == Taken::nothing) taken = next_record(message);
+    if (taken == Taken::message) return true;
+    at_end_ = taken == Taken::nothing;
+    if (!at_end_) continue;
+    bytes_->read_to_end();
+    check_end();
+    issues_.merge(bytes_->issues());
   }
-  message = {topics_[given_++], 0, {}, true};
-  return true;
+  return false;
+}
+
+void ChunkedSource::rewind() {
+  bytes_->rewind();
+  window_.clear();
+  issues_ = {};
+  begin_chunk();
+  missing_.clear();
+  at_end_ = false;
+  start();
+}
+
+ChunkedSource::Taken ChunkedSource::give(const Message& found, const char* what, std::uint32_t channel,
+                                         Message& message) {
+  bytes_->spend(kMessageWork_ns);
+  ++given_[channel];
+  message = found;
+  if (found.topic >= 0) return Taken::message;
+  issues_.add({"channel_unknown", "", Severity::warning,
+               fmt::format("skipped a message of {} {}: the file does not declare its topic and type", what,
+                           channel)});
+  return Taken::other;
+}
+
+void ChunkedSource::begin_chunk() {
+  given_.clear();
+  lossy_ = doubtful_ = false;
+}
+
+void ChunkedSource::lose_chunk(const std::string& why, bool doubtful) {
+  lossy_ = true;
+  doubtful_ = doubtful;
+  issues_.add({"chunk_damaged", "", Severity::severe,
+               fmt::format("the chunk at byte {}: {}{}", window_.position(), why,
+                           doubtful ? "; its messages were left out" : "")});
+}
+
+bool ChunkedSource::unpack(BlockPacking packing, std::uint64_t size, std::string_view& bytes) {
+  if (packing == BlockPacking::none) return bytes.size() == size;
+  const bool sound = unpack_block(packing, bytes, size, unpacked_);
+  bytes = unpacked_.view();
+  bytes_->spend(block_work_ns(packing, static_cast<std::int64_t>(bytes.size())));
+  return sound;
+}
+
+void ChunkedSource::compare(std::uint32_t channel, std::size_t messages, int topic) {
+  if (!lossy_ || topic < 0) return;
+  for (std::size_t& given = given_[channel]; given < messages; ++given) missing_.push_back(topic);
 }
 
 }  // namespace faultline

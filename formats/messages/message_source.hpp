@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "formats/byte_source.hpp"
+#include "formats/bytes/unpack_block.hpp"
 #include "lib/core/issue.hpp"
 #include "lib/log/raw_reader.hpp"
 
@@ -55,12 +57,14 @@ struct Message {
 /// failure to read the file throws Error(input).
 class MessageSource {
  public:
-  explicit MessageSource(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {}
+  /// `format` is the name of the format in LogIdentity.
+  MessageSource(std::unique_ptr<ByteSource> bytes, const char* format)
+      : bytes_(std::move(bytes)), topics_(bytes_->path()), format_(format) {}
   virtual ~MessageSource() = default;
   const std::string& path() const { return bytes_->path(); }
-  virtual const char* format() const = 0;
+  const char* format() const { return format_; }
   /// Topics met so far; the list only grows.
-  virtual const std::vector<Topic>& topics() const = 0;
+  const std::vector<Topic>& topics() const { return topics_.all(); }
   /// False after the last one.
   virtual bool next(Message& message) = 0;
   /// Starts again, with issues empty; the topics stay.
@@ -74,29 +78,57 @@ class MessageSource {
 
  protected:
   std::unique_ptr<ByteSource> bytes_;
+  TopicList topics_;
   Issues issues_;
-};
-
-/// Finds the messages that are missing in damaged chunks by the index after each chunk. Channels have the
-/// numbers of the file.
-class LostMessages {
- public:
-  /// Begins a chunk, which is complete unless lose() is called.
-  void begin_chunk();
-  void lose() { lossy_ = true; }
-  bool is_lossy() const { return lossy_; }
-  /// Counts a message of the chunk that was handed out.
-  void met(std::uint32_t channel) { ++met_[channel]; }
-  /// Takes the index after the chunk; messages of a topic beyond those counted by met() are missing.
-  void compare(std::uint32_t channel, std::size_t messages, int topic);
-  /// Returns the next missing message; false when there is none.
-  bool next(Message& message);
 
  private:
-  std::map<std::uint32_t, std::size_t> met_;  ///< in the present chunk
-  std::vector<int> topics_;                   ///< of missing messages
-  std::size_t given_ = 0;
-  bool lossy_ = false;
+  const char* format_;
+};
+
+/// A recording with messages in chunks, each followed by an index, that is read from front to back. The index
+/// of a damaged chunk shows which of its messages are missing. Channels have the numbers of the file.
+class ChunkedSource : public MessageSource {
+ public:
+  bool next(Message& message) override;
+  void rewind() override;
+
+ protected:
+  /// Kind of a record that was taken; `nothing` if there was none.
+  enum class Taken { message, other, nothing };
+
+  ChunkedSource(std::unique_ptr<ByteSource> bytes, const char* format)
+      : MessageSource(std::move(bytes), format), window_(*bytes_) {}
+  /// Begins at the front of the window.
+  virtual void start() = 0;
+  /// Takes the next record of the open chunk, if one is open.
+  virtual Taken next_inside(Message& message) = 0;
+  /// Takes the next record outside chunks.
+  virtual Taken next_record(Message& message) = 0;
+  /// Makes the checks that need the whole file.
+  virtual void check_end() {}
+
+  /// Hands out `found`, a message of a channel, unless its topic is unknown (negative), which is reported:
+  /// `what` is the file's word for a channel.
+  Taken give(const Message& found, const char* what, std::uint32_t channel, Message& message);
+  /// Begins a chunk, which is complete unless lose_chunk() is called.
+  void begin_chunk();
+  /// Reports damage of the chunk. Its messages may be wrong, and are only counted, if it is `doubtful`.
+  void lose_chunk(const std::string& why, bool doubtful);
+  bool is_lossy() const { return lossy_; }
+  bool is_doubtful() const { return doubtful_; }
+  /// Replaces the bytes of a chunk by the unpacked ones, which are valid until the next chunk; false when
+  /// they are damaged or not `size` bytes.
+  bool unpack(BlockPacking packing, std::uint64_t size, std::string_view& bytes);
+  /// Takes the index after a chunk; messages of a topic beyond those given are missing in a lossy chunk.
+  void compare(std::uint32_t channel, std::size_t messages, int topic);
+
+  ByteWindow window_;
+
+ private:
+  BlockBytes unpacked_;
+  std::map<std::uint32_t, std::size_t> given_;  ///< messages of the present chunk, by channel
+  std::deque<int> missing_;                     ///< topics of missing messages that were not handed out
+  bool lossy_ = false, doubtful_ = false, at_end_ = false;
 };
 
 /// Opens the sensor_msgs/JointState messages of a recording as a table. The joints are found in its first

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -120,50 +119,15 @@ std::optional<BlockPacking> bag_packing(std::string_view name) {
   return std::nullopt;
 }
 
-class Rosbag1Source : public MessageSource {
+class Rosbag1Source : public ChunkedSource {
  public:
-  explicit Rosbag1Source(std::unique_ptr<ByteSource> bytes)
-      : MessageSource(std::move(bytes)), window_(*bytes_), topics_(bytes_->path()) {
-    start();
-  }
-
-  const char* format() const override { return "rosbag1"; }
-  const std::vector<Topic>& topics() const override { return topics_.all(); }
-
-  bool next(Message& message) override {
-    while (!at_end_) {
-      if (lost_.next(message)) return true;
-      if (!inside_.empty()) {
-        if (next_inside(message)) return true;
-      } else if (!next_record(message)) {
-        end();
-      } else if (given_) {
-        given_ = false;
-        return true;
-      }
-    }
-    return false;
-  }
-
-  void rewind() override {
-    bytes_->rewind();
-    window_.clear();
-    issues_ = {};
-    start();
-  }
+  explicit Rosbag1Source(std::unique_ptr<ByteSource> bytes) : ChunkedSource(std::move(bytes), "rosbag1") {}
 
  private:
-  void start() {
+  void start() override {
     inside_ = {};
-    lost_ = {};
-    given_ = at_end_ = chunk_doubtful_ = false;
     record_size_ = 0;
     recordings_ = 0;
-  }
-
-  std::uint64_t left() const {
-    if (bytes_->compression() || bytes_->file_size() == 0) return std::numeric_limits<std::uint64_t>::max();
-    return static_cast<std::uint64_t>(std::max<std::int64_t>(0, bytes_->file_size() - window_.position()));
   }
 
   /// Returns the bytes of the record at the front of the view; 0 for an invalid one.
@@ -175,28 +139,26 @@ class Rosbag1Source : public MessageSource {
     return rosbag1_record_size(window_.view());
   }
 
-  /// Takes the next record; `given_` is true when it is a message. False at the end.
-  bool next_record(Message& message) {
+  Taken next_record(Message& message) override {
     window_.skip(record_size_);
     record_size_ = 0;
     pass_mark();
-    if (!window_.fill(1)) return false;
+    if (!window_.fill(1)) return Taken::nothing;
     const std::uint64_t size = likely_size();
-    if (size > kLargestBlock && size <= left() && is_chunk()) {
-      lost_.begin_chunk();
-      lose_chunk(too_large_block(size));
+    if (size > kLargestBlock && size <= window_.left() && is_chunk()) {
+      begin_chunk();
+      lose_chunk(too_large_block(size), false);
       record_size_ = size;
-      return true;
+      return Taken::other;
     }
     if (size == 0 || size > kLargestBlock) return find_record();
-    const bool whole = size <= left() && window_.fill(size);
+    const bool whole = size <= window_.left() && window_.fill(size);
     if (!whole && !is_chunk()) {
       // Either its length is wrong and other records follow, or the file is cut in it.
       return find_record();
     }
     record_size_ = std::min<std::uint64_t>(size, window_.view().size());
-    take(window_.view().substr(0, record_size_), whole, message);
-    return true;
+    return take(window_.view().substr(0, record_size_), whole, message);
   }
 
   /// Skips the mark at which a bag begins. One appended to another has connection numbers of its own.
@@ -213,7 +175,11 @@ class Rosbag1Source : public MessageSource {
     window_.advance(kRosbag1Magic.size());
   }
 
-  std::map<std::uint32_t, int>& topic_of() { return topics_of_[recordings_ - 1]; }
+  /// Returns the topic of a connection; -1 for an unknown one.
+  int topic_of(std::uint32_t id) const {
+    const auto found = topics_of_[recordings_ - 1].find(id);
+    return found == topics_of_[recordings_ - 1].end() ? -1 : found->second;
+  }
 
   bool is_chunk() {
     const auto header = ByteCursor(window_.view()).text();
@@ -221,7 +187,7 @@ class Rosbag1Source : public MessageSource {
   }
 
   /// Moves past damaged bytes to the next plausible record.
-  bool find_record() {
+  Taken find_record() {
     const std::int64_t begin = window_.position();
     bool found = false;
     do {
@@ -242,17 +208,17 @@ class Rosbag1Source : public MessageSource {
         window_.advance(view.size() > kSourceSearchedAtOnce / 2 ? view.size() - kBefore : view.size());
         continue;
       }
-      const auto begins = rosbag1_record_before(view, at, left());
+      const auto begins = rosbag1_record_before(view, at, window_.left());
       found = begins != std::string_view::npos;
       window_.advance(found ? begins : at + 1);
     } while (!found && !window_.view().empty());
     issues_.add(
         {"records_damaged", "", Severity::severe,
          fmt::format("bytes {} to {} are not records; their data are lost", begin, window_.position())});
-    return found;
+    return found ? Taken::other : Taken::nothing;
   }
 
-  void take(std::string_view bytes, bool whole, Message& message) {
+  Taken take(std::string_view bytes, bool whole, Message& message) {
     const auto header = ByteCursor(bytes).text();
     const Rosbag1Fields fields(header);
     const std::string_view data = bytes.substr(header.size() + kLeastRecord);
@@ -261,8 +227,7 @@ class Rosbag1Source : public MessageSource {
         add_connection(fields, data);
         break;
       case Rosbag1Op::message:
-        given_ = read_message(fields, data, false, message);
-        break;
+        return read_message(fields, data, false, message);
       case Rosbag1Op::chunk:
         open_chunk(fields, data, whole);
         break;
@@ -272,96 +237,62 @@ class Rosbag1Source : public MessageSource {
       default:
         break;
     }
+    return Taken::other;
   }
 
   void add_connection(const Rosbag1Fields& fields, std::string_view data) {
     const std::uint32_t id = fields.word("conn");
-    if (topic_of().count(id)) return;
-    topic_of().emplace(id, topics_.add({std::string(fields.text("topic")),
-                                        std::string(Rosbag1Fields(data).text("type")), "ros1"}));
+    if (topic_of(id) >= 0) return;
+    topics_of_[recordings_ - 1].emplace(
+        id, topics_.add(
+                {std::string(fields.text("topic")), std::string(Rosbag1Fields(data).text("type")), "ros1"}));
   }
 
-  bool read_message(const Rosbag1Fields& fields, std::string_view data, bool lost, Message& message) {
+  Taken read_message(const Rosbag1Fields& fields, std::string_view data, bool lost, Message& message) {
     const std::uint32_t id = fields.word("conn");
-    lost_.met(id);
-    bytes_->spend(kMessageWork_ns);
-    const auto topic = topic_of().find(id);
-    if (topic == topic_of().end()) {
-      issues_.add(
-          {"channel_unknown", "", Severity::warning,
-           fmt::format("skipped a message of connection {}: the file does not declare its topic and type",
-                       id)});
-      return false;
-    }
-    message = {topic->second, fields.time("time"), data, lost};
-    return true;
+    return give({topic_of(id), fields.time("time"), data, lost}, "connection", id, message);
   }
 
   void open_chunk(const Rosbag1Fields& fields, std::string_view data, bool whole) {
-    lost_.begin_chunk();
+    begin_chunk();
     const auto packing = bag_packing(fields.text("compression"));
     const std::uint32_t size = fields.word("size");
-    if (!packing) return lose_chunk("its compression is unknown");
-    if (size > kLargestBlock) return lose_chunk(too_large_block(size));
-    bool sound = data.size() == size;
+    if (!packing) return lose_chunk("its compression is unknown", false);
+    if (size > kLargestBlock) return lose_chunk(too_large_block(size), false);
     inside_ = data;
-    if (*packing != BlockPacking::none) {
-      sound = unpack_block(*packing, data, size, unpacked_);
-      inside_ = unpacked_.view();
-      bytes_->spend(block_work_ns(*packing, static_cast<std::int64_t>(inside_.size())));
-    }
+    const bool sound = unpack(*packing, size, inside_);
     if (!whole)
-      lose_chunk("the file ends inside it; the data before the cut are read");
+      lose_chunk("the file ends inside it; the data before the cut are read", false);
     else if (!sound)
-      lose_chunk("it cannot be unpacked to its end; its messages were left out");
-    chunk_doubtful_ = whole && !sound;
+      lose_chunk("it cannot be unpacked to its end", true);
   }
 
-  void lose_chunk(const std::string& why) {
-    lost_.lose();
-    issues_.add({"chunk_damaged", "", Severity::severe,
-                 fmt::format("the chunk at byte {}: {}", window_.position(), why)});
-  }
-
-  bool next_inside(Message& message) {
+  Taken next_inside(Message& message) override {
+    if (inside_.empty()) return Taken::nothing;
     const Rosbag1Record record = rosbag1_record(inside_);
     if (record.size == 0 || !record.fields.has_op()) {
-      if (!lost_.is_lossy()) lose_chunk("the records in it are damaged; those before the damage are read");
+      if (!is_lossy()) lose_chunk("the records in it are damaged; those before the damage are read", false);
       inside_ = {};
-      return false;
+      return Taken::other;
     }
     inside_ = inside_.substr(record.size);
     if (record.fields.op() == Rosbag1Op::connection) add_connection(record.fields, record.data);
-    return record.fields.op() == Rosbag1Op::message &&
-           read_message(record.fields, record.data, chunk_doubtful_, message);
+    if (record.fields.op() != Rosbag1Op::message) return Taken::other;
+    return read_message(record.fields, record.data, is_doubtful(), message);
   }
 
   /// Counts the messages of a damaged chunk from the index after it.
   void count_lost(const Rosbag1Fields& fields) {
-    const auto topic = topic_of().find(fields.word("conn"));
-    if (topic == topic_of().end()) return;
+    const std::uint32_t id = fields.word("conn");
     // Entries take 12 bytes each in the data, which was read with the record.
     constexpr std::size_t kEntry = 12;
-    lost_.compare(topic->first, std::min<std::size_t>(fields.word("count"), record_size_ / kEntry),
-                  topic->second);
+    compare(id, std::min<std::size_t>(fields.word("count"), record_size_ / kEntry), topic_of(id));
   }
 
-  void end() {
-    at_end_ = true;
-    bytes_->read_to_end();
-    issues_.merge(bytes_->issues());
-  }
-
-  ByteWindow window_;
-  TopicList topics_;
   std::size_t recordings_ = 0;                           ///< that have begun
   std::vector<std::map<std::uint32_t, int>> topics_of_;  ///< by recording, of each connection
   std::uint64_t record_size_ = 0;                        ///< of the present record; skipped at the next one
-  BlockBytes unpacked_;                                  ///< the open chunk, if it was compressed
   std::string_view inside_;                              ///< rest of the open chunk
-  bool chunk_doubtful_ = false;                          ///< its bytes may be wrong
-  LostMessages lost_;
-  bool given_ = false, at_end_ = false;
 };
 
 }  // namespace

@@ -76,34 +76,81 @@ std::string uri_of(const std::string& path) {
   return uri + (std::filesystem::exists(path + "-wal", none) ? "?mode=ro" : "?immutable=1");
 }
 
+std::int64_t big_endian(std::string_view bytes) {
+  std::int64_t number = 0;
+  for (const char c : bytes) number = 256 * number + static_cast<unsigned char>(c);
+  return number;
+}
+
+/// Returns the bytes of a database according to its head; 0 if the head is not valid.
+std::int64_t sqlite_bytes(std::string_view head) {
+  constexpr std::size_t kDatabaseHead = 100;
+  if (head.size() < kDatabaseHead || head.substr(24, 4) != head.substr(92, 4))
+    return 0;  // not of the same change
+  const std::int64_t page = big_endian(head.substr(16, 2)), pages = big_endian(head.substr(28, 4));
+  return pages * (page == 1 ? 65536 : page);
+}
+
 /// The tables of a rosbag2 recording in SQLite: topics, and messages in the order of their numbers. Pages
 /// that are damaged or missing are skipped. The file is not changed and no code in it is run.
-class MessageTable {
+class Rosbag2Source : public MessageSource {
  public:
   /// Throws Error(input) when the file is no such recording.
-  explicit MessageTable(const std::string& path);
-  ~MessageTable();
-  MessageTable(const MessageTable&) = delete;
-  MessageTable& operator=(const MessageTable&) = delete;
+  explicit Rosbag2Source(std::unique_ptr<ByteSource> bytes)
+      : MessageSource(std::move(bytes), "rosbag2"),
+        file_bytes_(bytes_of(path()) + bytes_of(path() + "-wal")),
+        budget_(path()) {
+    try {
+      open();
+      bound_work();
+      for (const char* table : {"topics", "messages"}) refuse_computed(table);
+      sqlite3_set_authorizer(db_, allow, nullptr);
+      read_topics();
+    } catch (...) {
+      sqlite3_close(db_);
+      throw;
+    }
+    start();
+  }
+  ~Rosbag2Source() override {
+    sqlite3_finalize(messages_);
+    sqlite3_close(db_);
+  }
+  Rosbag2Source(const Rosbag2Source&) = delete;
+  Rosbag2Source& operator=(const Rosbag2Source&) = delete;
 
-  const std::vector<Topic>& topics() const { return topics_.all(); }
-  /// Takes the next message; its bytes are valid until the next call. False after the last one.
-  bool next(Message& message, Issues& issues) {
+  bool next(Message& message) override {
     while (!at_end_) {
       if (!at_row_) {
         const int result = sqlite3_step(messages_);
         const bool sound = result == SQLITE_ROW && sqlite3_column_int64(messages_, 0) > number_;
         if (over_budget_) refuse_work();
-        at_end_ = result == SQLITE_DONE || (!sound && !pass_damage(issues));
+        at_end_ = result == SQLITE_DONE || (!sound && !pass_damage());
         if (at_end_) break;
       }
       at_row_ = false;
-      if (take(message, issues)) return true;
+      if (take(message)) return true;
     }
+    bytes_->read_to_end();
+    tell_appended();
     return false;
   }
 
-  void rewind() {
+  void rewind() override {
+    bytes_->rewind();
+    issues_ = {};
+    start();
+  }
+
+  void spend(std::int64_t work_ns) override { budget_.spend(work_ns, file_bytes_); }
+  /// Share of the numbers of all messages, 0 to 1.
+  double share_read() const override {
+    if (last_number_ <= 0 || number_ <= 0) return 0.0;
+    return std::min(1.0, static_cast<double>(number_) / static_cast<double>(last_number_));
+  }
+
+ private:
+  void start() {
     number_ = std::numeric_limits<std::int64_t>::min();
     budget_.start();
     over_budget_ = false;
@@ -113,17 +160,8 @@ class MessageTable {
     sqlite3_reset(messages_);
   }
 
-  /// Counts work on the messages, see WorkBudget.
-  void spend(std::int64_t work_ns) { budget_.spend(work_ns, file_bytes_); }
-  /// Share of the numbers of all messages, 0 to 1.
-  double share_read() const {
-    if (last_number_ <= 0 || number_ <= 0) return 0.0;
-    return std::min(1.0, static_cast<double>(number_) / static_cast<double>(last_number_));
-  }
-
- private:
-  void open(const std::string& path) {
-    if (sqlite3_open_v2(uri_of(path).c_str(), &db_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) !=
+  void open() {
+    if (sqlite3_open_v2(uri_of(path()).c_str(), &db_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) !=
         SQLITE_OK)
       fail(fmt::format("cannot be opened as SQLite ({})", sqlite3_errmsg(db_)));
     for (const int off :
@@ -141,13 +179,13 @@ class MessageTable {
     sqlite3_progress_handler(
         db_, kCountedSteps,
         [](void* self) {
-          auto& table = *static_cast<MessageTable*>(self);
+          auto& source = *static_cast<Rosbag2Source*>(self);
           try {
-            table.budget_.spend(kCountedSteps * kStep_ns, table.file_bytes_);
+            source.spend(kCountedSteps * kStep_ns);
           } catch (const Error&) {
-            table.over_budget_ = true;
+            source.over_budget_ = true;
           }
-          return table.over_budget_ ? 1 : 0;
+          return source.over_budget_ ? 1 : 0;
         },
         this);
   }
@@ -215,7 +253,7 @@ class MessageTable {
   }
 
   /// Skips unreadable messages, with growing steps, then bisects to the first readable one.
-  bool pass_damage(Issues& issues) {
+  bool pass_damage() {
     constexpr std::int64_t kFarthest = std::int64_t{1} << 24;
     const std::int64_t first = std::max<std::int64_t>(number_, 0) + 1;
     std::int64_t step = 1;
@@ -233,18 +271,18 @@ class MessageTable {
     const std::int64_t next = found ? sqlite3_column_int64(messages_, 0) : last_number_ + 1;
     const std::string lost = next > first ? fmt::format("messages {} to {}", first, next - 1)
                                           : fmt::format("the messages from number {} on", first);
-    issues.add(
+    issues_.add(
         {"pages_damaged", "", Severity::severe, lost + " are on damaged or missing pages and are lost"});
     return found;
   }
 
-  bool take(Message& message, Issues& issues) {
+  bool take(Message& message) {
     number_ = sqlite3_column_int64(messages_, 0);
     const std::int64_t id = sqlite3_column_int64(messages_, 1);
     const auto topic = topic_of_id_.find(id);
     if (topic == topic_of_id_.end()) {
-      issues.add({"channel_unknown", "", Severity::warning,
-                  fmt::format("skipped message {}: the file declares no topic {}", number_, id)});
+      issues_.add({"channel_unknown", "", Severity::warning,
+                   fmt::format("skipped message {}: the file declares no topic {}", number_, id)});
       return false;
     }
     const auto* bytes = static_cast<const char*>(sqlite3_column_blob(messages_, 3));
@@ -256,81 +294,6 @@ class MessageTable {
     return true;
   }
 
-  [[noreturn]] void fail(const std::string& what) const { throw Error(ErrorCode::input, path_, what); }
-
-  std::string path_;
-  sqlite3* db_ = nullptr;
-  sqlite3_stmt* messages_ = nullptr;  ///< from some number on
-  TopicList topics_;
-  std::map<std::int64_t, int> topic_of_id_;
-  std::int64_t number_ = 0;       ///< of the last message handed out
-  std::int64_t last_number_ = 0;  ///< of the file's last message, if it can be read
-  bool at_row_ = false;           ///< a row was read by seek() and not handed out
-  bool at_end_ = false;
-  std::int64_t file_bytes_ = 0;
-  WorkBudget budget_;         ///< of the steps of SQLite
-  bool over_budget_ = false;  ///< SQLite was interrupted
-};
-
-MessageTable::MessageTable(const std::string& path)
-    : path_(path), topics_(path), file_bytes_(bytes_of(path) + bytes_of(path + "-wal")), budget_(path) {
-  try {
-    open(path);
-    bound_work();
-    for (const char* table : {"topics", "messages"}) refuse_computed(table);
-    sqlite3_set_authorizer(db_, allow, nullptr);
-    read_topics();
-  } catch (...) {
-    sqlite3_close(db_);
-    throw;
-  }
-  rewind();
-}
-
-MessageTable::~MessageTable() {
-  sqlite3_finalize(messages_);
-  sqlite3_close(db_);
-}
-
-std::int64_t big_endian(std::string_view bytes) {
-  std::int64_t number = 0;
-  for (const char c : bytes) number = 256 * number + static_cast<unsigned char>(c);
-  return number;
-}
-
-/// Returns the bytes of a database according to its head; 0 if the head is not valid.
-std::int64_t sqlite_bytes(std::string_view head) {
-  constexpr std::size_t kDatabaseHead = 100;
-  if (head.size() < kDatabaseHead || head.substr(24, 4) != head.substr(92, 4))
-    return 0;  // not of the same change
-  const std::int64_t page = big_endian(head.substr(16, 2)), pages = big_endian(head.substr(28, 4));
-  return pages * (page == 1 ? 65536 : page);
-}
-
-class Rosbag2Source : public MessageSource {
- public:
-  explicit Rosbag2Source(std::unique_ptr<ByteSource> bytes)
-      : MessageSource(std::move(bytes)), table_(bytes_->path()) {}
-
-  const char* format() const override { return "rosbag2"; }
-  const std::vector<Topic>& topics() const override { return table_.topics(); }
-  double share_read() const override { return table_.share_read(); }
-  void spend(std::int64_t work_ns) override { table_.spend(work_ns); }
-
-  bool next(Message& message) override {
-    if (table_.next(message, issues_)) return true;
-    bytes_->read_to_end();
-    tell_appended();
-    return false;
-  }
-
-  void rewind() override {
-    bytes_->rewind();
-    table_.rewind();
-    issues_ = {};
-  }
-
- private:
   /// Reports a recording after the pages of the first one, of which SQLite reads as many as the head states.
   void tell_appended() {
     const std::int64_t end = sqlite_bytes(bytes_->head());
@@ -342,7 +305,18 @@ class Rosbag2Source : public MessageSource {
              ", as if files were joined by cat; it is not read. Give the files separately, with --then"});
   }
 
-  MessageTable table_;
+  [[noreturn]] void fail(const std::string& what) const { throw Error(ErrorCode::input, path(), what); }
+
+  sqlite3* db_ = nullptr;
+  sqlite3_stmt* messages_ = nullptr;  ///< from some number on
+  std::map<std::int64_t, int> topic_of_id_;
+  std::int64_t number_ = 0;       ///< of the last message handed out
+  std::int64_t last_number_ = 0;  ///< of the file's last message, if it can be read
+  bool at_row_ = false;           ///< a row was read by seek() and not handed out
+  bool at_end_ = false;
+  std::int64_t file_bytes_ = 0;
+  WorkBudget budget_;         ///< of the steps of SQLite
+  bool over_budget_ = false;  ///< SQLite was interrupted
 };
 
 }  // namespace
