@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "formats/arrays/array_notes.hpp"
-
 #include <nlohmann/json.hpp>
+
+#include "formats/arrays/array_file.hpp"
 
 namespace faultline {
 namespace {

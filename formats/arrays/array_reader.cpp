@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "formats/arrays/array_file.hpp"
-#include "formats/arrays/array_notes.hpp"
 #include "formats/arrays/array_table.hpp"
 #include "formats/byte_source.hpp"
 #include "formats/provenance.hpp"
@@ -28,7 +27,10 @@ class ArrayReader : public RawReader {
       : bytes_(std::move(bytes)), open_(open) {
     identity_.path = bytes_->path();
     identity_.format = format;
-    refuse_pipe();
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(identity_.path, error))
+      throw Error(ErrorCode::input, identity_.path,
+                  "is a pipe or a device, but array formats need random access; copy it to a file");
     const auto file = open_(identity_.path);
     arrays_ = named(*file);
     refuse_damaged(*file);
@@ -71,13 +73,6 @@ class ArrayReader : public RawReader {
   }
 
  private:
-  void refuse_pipe() const {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(identity_.path, error))
-      throw Error(ErrorCode::input, identity_.path,
-                  "is a pipe or a device, but array formats need random access; copy it to a file");
-  }
-
   /// Throws Error(input) if no array could be read; the reason is the first issue.
   void refuse_damaged(const ArrayFile& file) const {
     if (arrays_.empty() && !file.issues().empty())

@@ -22,12 +22,42 @@ namespace {
 
 constexpr std::size_t kMostTold = 8;  ///< arrays that a message lists by name
 
-/// Returns the shape as text, such as 100 x 3.
-std::string shape_text(const ArrayShape& shape) { return fmt::format("{}", fmt::join(shape, " x ")); }
-
+/// Upper limit of the columns of a table; no log has more.
+constexpr std::int64_t kMostArrayColumns = 1 << 14;
 constexpr double kMostOfARobot = 64.0;  ///< longest list of robot data, such as limits of its joints
 
-using Shape = ArrayShape;
+using Shape = std::vector<std::int64_t>;
+
+/// Returns the shape without dimensions of one, except that a vector of one element stays a vector.
+Shape squeezed(const Shape& shape) {
+  Shape kept;
+  for (const std::int64_t size : shape)
+    if (size != 1) kept.push_back(size);
+  if (kept.empty() && !shape.empty()) kept.push_back(1);
+  return kept;
+}
+
+double elements(const Shape& shape) {
+  double count = 1.0;
+  for (const std::int64_t size : shape) count *= static_cast<double>(size);
+  return count;
+}
+
+/// Returns the name and shape, such as "q" (100 x 3), for messages.
+std::string array_label(const NamedArray& array) {
+  const std::string name =
+      array.name.empty() ? "the array" : "\"" + shortened(array.name, kLongestName) + "\"";
+  return name + " (" + fmt::format("{}", fmt::join(array.shape, " x ")) + ")";
+}
+
+/// Returns the labels of the first arrays and the number of further ones.
+std::string listed_arrays(const std::vector<const NamedArray*>& arrays) {
+  std::string names;
+  for (std::size_t i = 0; i < std::min(kMostTold, arrays.size()); ++i)
+    names += (i > 0 ? ", " : "") + array_label(*arrays[i]);
+  if (arrays.size() > kMostTold) names += fmt::format(" and {} more", arrays.size() - kMostTold);
+  return names;
+}
 
 std::string leaf_of(const std::string& name) {
   const auto at = name.find_last_of("/.");
@@ -263,34 +293,6 @@ class TableMaker {
 
 }  // namespace
 
-ArrayShape squeezed(const ArrayShape& shape) {
-  ArrayShape kept;
-  for (const std::int64_t size : shape)
-    if (size != 1) kept.push_back(size);
-  if (kept.empty() && !shape.empty()) kept.push_back(1);
-  return kept;
-}
-
-double elements(const ArrayShape& shape) {
-  double count = 1.0;
-  for (const std::int64_t size : shape) count *= static_cast<double>(size);
-  return count;
-}
-
-std::string array_label(const NamedArray& array) {
-  const std::string name =
-      array.name.empty() ? "the array" : "\"" + shortened(array.name, kLongestName) + "\"";
-  return name + " (" + shape_text(array.shape) + ")";
-}
-
-std::string listed_arrays(const std::vector<const NamedArray*>& arrays) {
-  std::string names;
-  for (std::size_t i = 0; i < std::min(kMostTold, arrays.size()); ++i)
-    names += (i > 0 ? ", " : "") + array_label(*arrays[i]);
-  if (arrays.size() > kMostTold) names += fmt::format(" and {} more", arrays.size() - kMostTold);
-  return names;
-}
-
 std::string why_no_table(const std::vector<NamedArray>& arrays) {
   std::vector<const NamedArray*> pointers;
   for (const NamedArray& array : arrays) pointers.push_back(&array);
@@ -298,7 +300,7 @@ std::string why_no_table(const std::vector<NamedArray>& arrays) {
   const auto is_deep = [](const NamedArray& array) { return squeezed(array.shape).size() > 2; };
   const auto is_empty = [](const NamedArray& array) { return elements(array.shape) == 0.0; };
   const auto is_wide = [](const NamedArray& array) {
-    const ArrayShape shape = squeezed(array.shape);
+    const Shape shape = squeezed(array.shape);
     return shape.size() > 2 || (shape.size() == 2 && std::min(shape[0], shape[1]) > kMostArrayColumns);
   };
   const std::string found = "; it holds " + listed_arrays(pointers);

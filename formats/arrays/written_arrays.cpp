@@ -7,26 +7,12 @@
 
 #include "formats/log_writer.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/files/output_place.hpp"
 #include "lib/log/log_channels.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr std::size_t kLongestPart = 40;  ///< of a channel's name; MATLAB allows names of 63
-
-/// Returns the columns of a log, one list per array.
-std::vector<std::vector<const std::vector<double>*>> columns_of(const Log& log) {
-  std::vector<std::vector<const std::vector<double>*>> all{{&log.time}};
-  for (const Quantity quantity : kJointQuantities) {
-    const JointSignals& signals = signals_of(log, quantity);
-    if (signals.empty()) continue;
-    all.emplace_back();
-    for (const std::vector<double>& signal : signals) all.back().push_back(&signal);
-  }
-  for (const ExtraChannel& extra : log.extra) all.push_back({&extra.values});
-  return all;
-}
 
 std::string stem_of(Quantity quantity) {
   const std::string name = to_string(Channel{quantity, 1});
@@ -57,7 +43,8 @@ void WrittenArrays::name_arrays(const Log& segment) {
     if (const auto width = static_cast<int>(signals_of(segment, quantity).size()); width > 0)
       arrays_.push_back({stem_of(quantity), "", width, false, {}});
   const std::vector<WrittenChannel> channels = channels_of(segment);
-  for (std::size_t i = channels.size() - segment.extra.size(); i < channels.size(); ++i) {
+  channels_ = channels.size();
+  for (std::size_t i = channels_ - segment.extra.size(); i < channels_; ++i) {
     arrays_.push_back({name_of_extra(channels[i].name), channels[i].unit, 1, true, {}});
     notes_.extra.push_back({arrays_.back().name, channels[i].name, channels[i].unit});
   }
@@ -65,16 +52,16 @@ void WrittenArrays::name_arrays(const Log& segment) {
 
 void WrittenArrays::add(const Log& segment, int begin, int end) {
   if (arrays_.empty()) name_arrays(segment);
-  const auto columns = columns_of(segment);
-  const auto alike = [](const WrittenArray& array, const auto& have) {
-    return array.width == static_cast<int>(have.size());
-  };
-  if (!std::equal(arrays_.begin(), arrays_.end(), columns.begin(), columns.end(), alike))
+  const std::vector<WrittenChannel> channels = channels_of(segment);
+  if (channels.size() != channels_)
     throw Error(ErrorCode::internal, path_, "segments of one log must have the same channels");
-  for (std::size_t i = 0; i < arrays_.size(); ++i)
+  auto channel = channels.begin();
+  for (WrittenArray& array : arrays_) {
     for (int row = begin; row < end; ++row)
-      for (const std::vector<double>* column : columns[i])
-        arrays_[i].values.push_back((*column)[static_cast<std::size_t>(row)]);
+      for (int c = 0; c < array.width; ++c)
+        array.values.push_back((*channel[c].values)[static_cast<std::size_t>(row)]);
+    channel += array.width;
+  }
   rows_ += end - begin;
 }
 
@@ -85,13 +72,6 @@ void WrittenArrays::clear() {
 
 std::string WrittenArrays::notes() const {
   return notes_.extra.empty() && notes_.provenance.empty() ? "" : notes_text(notes_);
-}
-
-void refuse_pipe_for(const std::string& path, const std::string& format) {
-  if (output_place(path).special)
-    throw Error(ErrorCode::output, path,
-                "is a pipe or a device, but " + format +
-                    " can be written to a file only; name a file, or write .csv there");
 }
 
 }  // namespace faultline

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/arrays/array_notes.hpp"
+#include "formats/arrays/array_file.hpp"
 #include "lib/log/log.hpp"
 
 namespace faultline {
@@ -27,7 +27,7 @@ class WrittenArrays {
   WrittenArrays(std::string path, std::string prefix);
 
   /// Appends rows [begin, end) of a segment, whose channels are those of the first. Throws Error(internal)
-  /// when they are not.
+  /// for another number of channels.
   void add(const Log& segment, int begin, int end);
   std::int64_t rows() const { return rows_; }
   const std::vector<WrittenArray>& arrays() const { return arrays_; }
@@ -43,11 +43,9 @@ class WrittenArrays {
 
   std::string path_, prefix_;
   std::vector<WrittenArray> arrays_;
+  std::size_t channels_ = 0;  ///< of the log
   ArrayNotes notes_;
   std::int64_t rows_ = 0;
 };
-
-/// Throws Error(output) when the path is a pipe or a device, as `format` must be assembled in a file.
-void refuse_pipe_for(const std::string& path, const std::string& format);
 
 }  // namespace faultline

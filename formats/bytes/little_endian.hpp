@@ -58,15 +58,19 @@ class ByteCursor {
   bool ok_ = true;
 };
 
+/// Appends a little-endian value to bytes.
+template <std::unsigned_integral T>
+void put_number(std::string& bytes, T value) {
+  static_assert(std::endian::native == std::endian::little);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
 /// Appends little-endian values to bytes.
 class ByteBuilder {
  public:
   template <std::unsigned_integral T>
   ByteBuilder& put(T value) {
-    static_assert(std::endian::native == std::endian::little);
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    bytes_.append(raw, sizeof raw);
+    put_number(bytes_, value);
     return *this;
   }
   ByteBuilder& put_bytes(std::string_view bytes) {

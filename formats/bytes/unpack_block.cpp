@@ -109,17 +109,9 @@ std::string too_large_block(std::uint64_t bytes) {
 }
 
 std::int64_t block_work_ns(BlockPacking packing, std::int64_t unpacked) {
-  switch (packing) {
-    case BlockPacking::none:
-      return 0;
-    case BlockPacking::lz4_frame:
-      return unpack_work_ns(kLz4Byte_ns, unpacked);
-    case BlockPacking::zstd:
-      return unpack_work_ns(kZstdByte_ns, unpacked);
-    case BlockPacking::bz2:
-      return unpack_work_ns(kBz2Byte_ns, unpacked);
-  }
-  return 0;
+  constexpr double kByte_ns[] = {0.0, kLz4Byte_ns, kZstdByte_ns,
+                                 kBz2Byte_ns};  // in the order of BlockPacking
+  return unpack_work_ns(kByte_ns[static_cast<std::size_t>(packing)], unpacked);
 }
 
 }  // namespace faultline

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "formats/csv/csv_fields.hpp"
 
-#include <fast_float/fast_float.h>
-
 #include <cctype>
 #include <chrono>
 #include <cstdint>
@@ -11,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "formats/csv/wide_rows.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {
@@ -152,10 +151,7 @@ Cell read_cell(std::string_view text, char decimal) {
   if (equals_ignoring_case(text, "false")) return {CellKind::number, 0.0};
   if (text.front() == '+') text.remove_prefix(1);
   double value = 0.0;
-  const fast_float::parse_options options(fast_float::chars_format::general, decimal);
-  const auto [end, error] =
-      fast_float::from_chars_advanced(text.data(), text.data() + text.size(), value, options);
-  if (error == std::errc() && end == text.data() + text.size()) return {CellKind::number, value};
+  if (read_number(text.data(), text.data() + text.size(), decimal, value)) return {CellKind::number, value};
   if (const auto seconds = clock_seconds(text)) return {CellKind::number, *seconds};
   return {CellKind::text, kNan};
 }

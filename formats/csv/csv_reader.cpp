@@ -39,8 +39,7 @@ class LineBuffer {
  public:
   explicit LineBuffer(ByteSource& bytes) : bytes_(bytes) {}
 
-  /// Whole lines from `position()` on, each ended by '
-  /// '; empty when fill() must be called.
+  /// Whole lines from `position()` on, each ended by '\n'; empty when fill() must be called.
   const char* position() const { return text() + begin_; }
   const char* end_of_lines() const { return text() + lines_end_; }
   void advance_to(const char* position) { begin_ = static_cast<std::size_t>(position - text()); }
@@ -165,7 +164,7 @@ class CsvReader : public RawReader {
       if (stop) break;
     }
     refuse_mostly_absent();
-    if (row == 0) issues_.add_bytes(bytes_->issues());
+    if (row == 0) issues_.merge(bytes_->issues());
     identity_.rows_read = at_.row;
     identity_.sha256 = bytes_->sha256();
     block.rows = row;

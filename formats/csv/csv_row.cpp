@@ -112,8 +112,6 @@ void CsvIssues::add_first_row(const CsvPlace& place, const char* code, const std
   more_rows_.push_back({code});
 }
 
-void CsvIssues::add_provenance(std::string_view text) { issues_.add(issue_from_provenance(text)); }
-
 const Issues& CsvIssues::all() const {
   for (std::size_t i = 0; i < text_cells_.size(); ++i) {
     if (text_cells_[i] == 0) continue;
@@ -198,10 +196,6 @@ const char* CsvRowReader::read_plain(const char* p, const char* end, int row) {
   return *p == '\n' ? p + 1 : nullptr;
 }
 
-CsvRow CsvRowReader::read_any(std::string_view line, const CsvPlace& at, int row) {
-  return read_line(line, at, row, nullptr);
-}
-
 CsvRow CsvRowReader::read_open(std::string_view line, std::string_view before, const CsvPlace& at, int row) {
   LastCells usual = dialect_.last_cells;
   for (std::size_t begin = 0; begin < before.size();) {
@@ -213,13 +207,13 @@ CsvRow CsvRowReader::read_open(std::string_view line, std::string_view before, c
     if (static_cast<int>(fields_.size()) == dialect_.fields && !repeats_header(dialect_, fields_))
       usual.add(fields_.back(), dialect_.decimal);
   }
-  return read_line(line, at, row, &usual);
+  return read_any(line, at, row, &usual);
 }
 
-/// Reads a line. `usual` is the format of last cells if the file ended in this line; else null.
-CsvRow CsvRowReader::read_line(std::string_view line, const CsvPlace& at, int row, const LastCells* usual) {
+CsvRow CsvRowReader::read_any(std::string_view line, const CsvPlace& at, int row, const LastCells* usual) {
   if (is_comment_or_blank(line)) {
-    if (line.starts_with(kProvenanceComment)) issues_.add_provenance(line.substr(kProvenanceComment.size()));
+    if (line.starts_with(kProvenanceComment))
+      issues_.add(issue_from_provenance(line.substr(kProvenanceComment.size())));
     return CsvRow::skip;
   }
   split_fields(line, dialect_.separator, fields_);

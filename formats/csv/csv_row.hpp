@@ -36,10 +36,9 @@ class CsvIssues {
     if (count_row(code, dropped)) return;
     add_first_row(place, code, what(), dropped, severity);
   }
-  /// Adds the issues of the bytes of the file.
-  void add_bytes(const Issues& issues) { issues_.merge(issues); }
-  /// Adds the issue of the damaged log that this one was converted from.
-  void add_provenance(std::string_view text);
+  /// Adds issues of the file as a whole.
+  void merge(const Issues& issues) { issues_.merge(issues); }
+  void add(const Issue& issue) { issues_.add(issue); }
   const Issues& all() const;
 
  private:
@@ -81,8 +80,9 @@ class CsvRowReader {
   /// Reads a line of only numbers and separators into row `row` of the block and returns the position after
   /// it; null for any other line, which read_any() must read. `end` is after a newline.
   const char* read_plain(const char* p, const char* end, int row);
-  /// Reads any line, without its newline.
-  CsvRow read_any(std::string_view line, const CsvPlace& at, int row);
+  /// Reads any line, without its newline. `usual` is the format of last cells if the file ended in this line;
+  /// else null.
+  CsvRow read_any(std::string_view line, const CsvPlace& at, int row, const LastCells* usual = nullptr);
   /// Reads a last line that has no newline; `before` are whole lines before it.
   CsvRow read_open(std::string_view line, std::string_view before, const CsvPlace& at, int row);
   /// Number of fields that rows lacked at their ends so far.
@@ -91,7 +91,6 @@ class CsvRowReader {
   void start();
 
  private:
-  CsvRow read_line(std::string_view line, const CsvPlace& at, int row, const LastCells* usual);
   void place_columns(const std::vector<int>& fields);
   void find_places();
   bool take_header(const CsvPlace& at);

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/arrays/array_notes.hpp"
+#include "formats/arrays/array_file.hpp"
 #include "formats/hdf5/hdf5_dataset.hpp"
 #include "formats/hdf5/hdf5_library.hpp"
 #include "lib/core/issue.hpp"

@@ -6,6 +6,8 @@
 #include "formats/arrays/written_arrays.hpp"
 #include "formats/hdf5/hdf5_library.hpp"
 #include "formats/known_formats.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/files/output_place.hpp"
 #include "lib/core/files/temporary_file.hpp"
 
 namespace faultline {
@@ -17,7 +19,10 @@ constexpr int kRowsAtOnce = 4096;
 class Hdf5Writer : public LogWriter {
  public:
   explicit Hdf5Writer(const std::string& path) : path_(path), arrays_(path, "extra/") {
-    refuse_pipe_for(path, "HDF5");
+    if (output_place(path).special)
+      throw Error(ErrorCode::output, path,
+                  "is a pipe or a device, but HDF5 can be written to a file only; name a file, or write .csv "
+                  "there");
     temporary_.emplace(path);
     const Hdf5Turn turn;
     const Hdf5Id access = hdf5_write_access(temporary_->descriptor(), failure_);

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "formats/arrays/array_file.hpp"
-#include "formats/arrays/array_notes.hpp"
 #include "formats/arrays/stored_arrays.hpp"
 #include "formats/hdf5/hdf5_arrays.hpp"
 #include "formats/known_formats.hpp"

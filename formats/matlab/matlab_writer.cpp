@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "formats/arrays/written_arrays.hpp"
+#include "formats/bytes/little_endian.hpp"
 #include "formats/known_formats.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
@@ -18,10 +19,6 @@ constexpr std::uint32_t kCharClass = 4, kDoubleClass = 6;
 constexpr std::size_t kStep = 8;  ///< elements begin at multiples of this many bytes
 constexpr std::size_t kWriterMostBytes = (std::size_t{1} << 31) - 4096;
 
-void put(std::string& bytes, std::uint32_t number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
 void pad(std::string& bytes) { bytes.append((kStep - bytes.size() % kStep) % kStep, '\0'); }
 
 /// Returns a matrix without its data, up to the tag of the data.
@@ -30,18 +27,18 @@ std::string matrix_head(std::uint32_t kind, std::size_t rows, std::size_t column
   std::string head;
   for (const std::uint32_t word :
        {kUint32, std::uint32_t{8}, kind, std::uint32_t{0}, kInt32, std::uint32_t{8}})
-    put(head, word);
-  put(head, static_cast<std::uint32_t>(rows));
-  put(head, static_cast<std::uint32_t>(columns));
-  put(head, kInt8);
-  put(head, static_cast<std::uint32_t>(name.size()));
+    put_number(head, word);
+  put_number(head, static_cast<std::uint32_t>(rows));
+  put_number(head, static_cast<std::uint32_t>(columns));
+  put_number(head, kInt8);
+  put_number(head, static_cast<std::uint32_t>(name.size()));
   head += name;
   pad(head);
-  put(head, data_type);
-  put(head, static_cast<std::uint32_t>(data_bytes));
+  put_number(head, data_type);
+  put_number(head, static_cast<std::uint32_t>(data_bytes));
   std::string all;
-  put(all, kWriterMatrix);
-  put(all, static_cast<std::uint32_t>(head.size() + (data_bytes + kStep - 1) / kStep * kStep));
+  put_number(all, kWriterMatrix);
+  put_number(all, static_cast<std::uint32_t>(head.size() + (data_bytes + kStep - 1) / kStep * kStep));
   return all + head;
 }
 

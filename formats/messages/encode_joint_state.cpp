@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "formats/messages/encode_joint_state.hpp"
 
-#include <bit>
-#include <cstring>
+#include "formats/bytes/little_endian.hpp"
 
 namespace faultline {
 namespace {
-
-static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view kLittleEndian{"\0\1\0\0", 4};
 constexpr std::size_t kStamp = 8;
@@ -18,21 +15,15 @@ void align(std::string& out, std::size_t begin, std::size_t to) {
   out.append((to - (out.size() - begin) % to) % to, '\0');
 }
 
-void append_word(std::string& out, std::uint32_t value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  out.append(raw, sizeof raw);
-}
-
 void append_text(std::string& out, const std::string& text) {
-  append_word(out, static_cast<std::uint32_t>(text.size() + 1));
+  put_number(out, static_cast<std::uint32_t>(text.size() + 1));
   out.append(text);
   out.push_back('\0');
 }
 
 void append_numbers(std::string& out, std::size_t begin, const std::vector<double>& values) {
   align(out, begin, sizeof(std::uint32_t));
-  append_word(out, static_cast<std::uint32_t>(values.size()));
+  put_number(out, static_cast<std::uint32_t>(values.size()));
   if (values.empty()) return;
   align(out, begin, sizeof(double));
   out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
@@ -44,7 +35,7 @@ JointStateEncoder::JointStateEncoder(const std::vector<std::string>& names) {
   std::string out(kStamp, '\0');  // the bytes before determine the padding
   append_text(out, "");
   align(out, 0, sizeof(std::uint32_t));
-  append_word(out, static_cast<std::uint32_t>(names.size()));
+  put_number(out, static_cast<std::uint32_t>(names.size()));
   for (const std::string& name : names) {
     align(out, 0, sizeof(std::uint32_t));
     append_text(out, name);
@@ -55,8 +46,8 @@ JointStateEncoder::JointStateEncoder(const std::vector<std::string>& names) {
 void JointStateEncoder::append(std::int64_t stamp_ns, const JointRow& row, std::string& out) const {
   out.append(kLittleEndian);
   const std::size_t begin = out.size();
-  append_word(out, static_cast<std::uint32_t>(stamp_ns / kStateSecond));
-  append_word(out, static_cast<std::uint32_t>(stamp_ns % kStateSecond));
+  put_number(out, static_cast<std::uint32_t>(stamp_ns / kStateSecond));
+  put_number(out, static_cast<std::uint32_t>(stamp_ns % kStateSecond));
   out.append(names_);
   append_numbers(out, begin, row.position);
   append_numbers(out, begin, row.velocity);

@@ -30,10 +30,6 @@ struct Wire {
   bool ends_with_nul = false;        ///< texts
 };
 
-constexpr std::uint32_t swap_bytes(std::uint32_t value) {
-  return (value >> 24) | ((value >> 8) & 0xFF00U) | ((value << 8) & 0xFF0000U) | (value << 24);
-}
-
 /// Takes the members of a message in their order; `ok` becomes false at the end of its bytes.
 class Members {
  public:
@@ -45,7 +41,7 @@ class Members {
     if (!has(sizeof value)) return 0;
     std::memcpy(&value, bytes_.data() + at_, sizeof value);
     at_ += sizeof value;
-    return wire_.swapped ? swap_bytes(value) : value;
+    return wire_.swapped ? __builtin_bswap32(value) : value;
   }
 
   std::string_view text() {

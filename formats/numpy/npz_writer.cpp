@@ -19,21 +19,16 @@ constexpr std::uint16_t kDate = (1 << 5) | 1;  ///< the first day that zip can s
 constexpr std::uint32_t kIn64 = 0xffffffff;
 constexpr std::size_t kHeaderStep = 64;  ///< npy headers end at a multiple of it
 
-template <typename Number>
-void put(std::string& bytes, Number number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
 std::string npy_header(const WrittenArray& array, std::int64_t rows) {
   const std::string shape =
       array.vector ? fmt::format("({},)", rows) : fmt::format("({}, {})", rows, array.width);
   std::string text = "{'descr': '<f8', 'fortran_order': False, 'shape': " + shape + ", }";
   std::string header(kNpyMagic);
-  put(header, std::uint16_t{1});
+  put_number(header, std::uint16_t{1});
   const std::size_t before = header.size() + sizeof(std::uint16_t);
   text.append(kHeaderStep - (before + text.size() + 1) % kHeaderStep, ' ');
   text += '\n';
-  put(header, static_cast<std::uint16_t>(text.size()));
+  put_number(header, static_cast<std::uint16_t>(text.size()));
   return header + text;
 }
 
@@ -59,15 +54,15 @@ class NpzWriter : public LogWriter {
     const std::uint32_t crc = crc32_of(values, crc32_of(header));
     std::string common;
     for (const std::uint16_t field : {kVersion, std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0}, kDate})
-      put(common, field);
-    put(common, crc);
-    for (int i = 0; i < 2; ++i) put(common, kIn64);
-    put(common, static_cast<std::uint16_t>(name.size()));
+      put_number(common, field);
+    put_number(common, crc);
+    for (int i = 0; i < 2; ++i) put_number(common, kIn64);
+    put_number(common, static_cast<std::uint16_t>(name.size()));
     std::string local = "PK\x03\x04" + common, extra;
-    put(extra, std::uint16_t{1});
-    put(extra, static_cast<std::uint16_t>(2 * sizeof size));
-    for (int i = 0; i < 2; ++i) put(extra, size);
-    put(local, static_cast<std::uint16_t>(extra.size()));
+    put_number(extra, std::uint16_t{1});
+    put_number(extra, static_cast<std::uint16_t>(2 * sizeof size));
+    for (int i = 0; i < 2; ++i) put_number(extra, size);
+    put_number(local, static_cast<std::uint16_t>(extra.size()));
     list(common, name, size);
     write_bytes(local + name + extra);
     write_bytes(header);
@@ -77,34 +72,34 @@ class NpzWriter : public LogWriter {
   /// Adds the member to the directory.
   void list(const std::string& common, const std::string& name, std::uint64_t size) {
     directory_ += "PK\x01\x02";
-    put(directory_, kVersion);
+    put_number(directory_, kVersion);
     directory_ += common;
-    put(directory_, static_cast<std::uint16_t>(4 + 3 * sizeof size));
+    put_number(directory_, static_cast<std::uint16_t>(4 + 3 * sizeof size));
     directory_.append(10, '\0');  // comment, disk, attributes
-    put(directory_, kIn64);
+    put_number(directory_, kIn64);
     directory_ += name;
-    put(directory_, std::uint16_t{1});
-    put(directory_, static_cast<std::uint16_t>(3 * sizeof size));
-    for (const std::uint64_t number : {size, size, written_}) put(directory_, number);
+    put_number(directory_, std::uint16_t{1});
+    put_number(directory_, static_cast<std::uint16_t>(3 * sizeof size));
+    for (const std::uint64_t number : {size, size, written_}) put_number(directory_, number);
     ++members_;
   }
 
   void end() {
     const std::uint64_t at = written_, size = directory_.size();
     std::string bytes = directory_ + "PK\x06\x06";
-    put(bytes, std::uint64_t{44});  // bytes of this record that follow
-    for (int i = 0; i < 2; ++i) put(bytes, kVersion);
-    put(bytes, std::uint64_t{0});
-    for (const std::uint64_t number : {members_, members_, size, at}) put(bytes, number);
+    put_number(bytes, std::uint64_t{44});  // bytes of this record that follow
+    for (int i = 0; i < 2; ++i) put_number(bytes, kVersion);
+    put_number(bytes, std::uint64_t{0});
+    for (const std::uint64_t number : {members_, members_, size, at}) put_number(bytes, number);
     bytes += "PK\x06\x07";
-    put(bytes, std::uint32_t{0});
-    put(bytes, at + size);
-    put(bytes, std::uint32_t{1});
+    put_number(bytes, std::uint32_t{0});
+    put_number(bytes, at + size);
+    put_number(bytes, std::uint32_t{1});
     bytes += "PK\x05\x06";
-    put(bytes, std::uint32_t{0});
-    for (int i = 0; i < 2; ++i) put(bytes, static_cast<std::uint16_t>(members_));
-    for (int i = 0; i < 2; ++i) put(bytes, kIn64);
-    put(bytes, std::uint16_t{0});
+    put_number(bytes, std::uint32_t{0});
+    for (int i = 0; i < 2; ++i) put_number(bytes, static_cast<std::uint16_t>(members_));
+    for (int i = 0; i < 2; ++i) put_number(bytes, kIn64);
+    put_number(bytes, std::uint16_t{0});
     write_bytes(bytes);
   }
 

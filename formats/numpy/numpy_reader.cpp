@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "formats/arrays/array_file.hpp"
-#include "formats/arrays/array_notes.hpp"
 #include "formats/arrays/stored_arrays.hpp"
 #include "formats/known_formats.hpp"
 #include "formats/numpy/npy_header.hpp"

@@ -127,7 +127,7 @@ class ContinuedReader : public RawReader {
   void finish() {
     Sha256 all;
     for (const auto& file : files_) all.update(file->identity().sha256);
-    identity_.sha256 = files_.size() == 1 ? files_.front()->identity().sha256 : all.hex();
+    identity_.sha256 = all.hex();
   }
 
   std::vector<std::unique_ptr<RawReader>> files_;

@@ -58,7 +58,8 @@ std::optional<RawTime> find_raw_time(const std::vector<RawColumn>& columns) {
 class Partner {
  public:
   /// Joins by time if `time` is given, else by row.
-  Partner(std::unique_ptr<RawReader> reader, std::optional<RawTime> time);
+  Partner(std::unique_ptr<RawReader> reader, std::optional<RawTime> time)
+      : reader_(std::move(reader)), time_(time) {}
 
   const RawReader& reader() const { return *reader_; }
   RawReader& reader() { return *reader_; }
@@ -183,9 +184,6 @@ class Partner {
   std::int64_t without_ = 0, between_ = 0, asked_ = 0, passed_ = 0;
 };
 
-Partner::Partner(std::unique_ptr<RawReader> reader, std::optional<RawTime> time)
-    : reader_(std::move(reader)), time_(time) {}
-
 /// Returns one hash for several files; empty until all are known.
 std::string hash_of_hashes(const std::vector<std::string>& hashes) {
   Sha256 all;
@@ -207,7 +205,6 @@ class JoinedReader : public RawReader {
   }
 
   const std::vector<RawColumn>& columns() const override { return columns_; }
-  bool canonical() const override { return false; }
   double share_read() const override { return first_->share_read(); }
 
   void want(const std::vector<bool>& columns) override {
