@@ -131,25 +131,29 @@ RowNoise with_filter(const std::vector<LogResidual>& logs, int order, RowNoise n
       const VectorXd x = log.torque.col(joint).cwiseQuotient(log.std.col(joint));
       rows += static_cast<double>(x.size());
       if (log.rows->at_rest.size() > 0) rows -= static_cast<double>(log.rows->at_rest.col(joint).count());
-      for (int lag = 0; lag <= order && lag < x.size(); ++lag)
-        correlation[lag] += x.head(x.size() - lag).dot(x.tail(x.size() - lag));
+      correlation += lag_products(x, order);
     }
     noise.joint[j] = with_autocovariance(std::move(noise.joint[j]), correlation / rows);
   }
   return noise;
 }
 
+VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
+  VectorXd out = VectorXd::Zero(order + 1);
+  for (Eigen::Index lag = 0; lag <= order && lag < rows.size(); ++lag)
+    out[lag] = rows.head(rows.size() - lag).dot(rows.tail(rows.size() - lag));
+  return out;
+}
+
 VectorXd autocovariance(const JointNoise& noise) {
   const Eigen::Index order = noise.filter.size() - 1;
-  VectorXd response(kImpulse), out(order + 1);
+  VectorXd response(kImpulse);
   for (Eigen::Index k = 0; k < kImpulse; ++k) {
     response[k] = k == 0 ? noise.innovation : 0.0;
     for (Eigen::Index lag = 1; lag <= std::min(order, k); ++lag)
       response[k] -= noise.filter[lag] * response[k - lag];
   }
-  for (Eigen::Index lag = 0; lag <= order; ++lag)
-    out[lag] = response.head(kImpulse - lag).dot(response.tail(kImpulse - lag));
-  return out;
+  return lag_products(response, order);
 }
 
 double most_hidden_by_white_noise(const RowNoise& noise) {

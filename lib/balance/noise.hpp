@@ -53,6 +53,9 @@ RowNoise with_variance(const std::vector<LogResidual>& logs, const RowSetting& s
 /// (Yule and Walker).
 RowNoise with_filter(const std::vector<LogResidual>& logs, int order, RowNoise noise);
 
+/// Returns the sums of products of rows that lie 0, 1, .. `order` apart.
+Eigen::VectorXd lag_products(const Eigen::VectorXd& rows, Eigen::Index order);
+
 /// Returns the autocovariance of rows over their standard deviation: of lag 0 up to the order of the filter.
 Eigen::VectorXd autocovariance(const JointNoise& noise);
 /// Returns the greatest ratio by which the evidence for a torque that lasts may exceed its score with white

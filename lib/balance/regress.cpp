@@ -5,6 +5,8 @@
 
 namespace faultline {
 
+using Eigen::VectorXd;
+
 NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rows) {
   NormalEquations out;
   out.matrix.setZero(columns.cols(), columns.cols());
@@ -41,8 +43,6 @@ Regression regress(const NormalEquations& sums, const Eigen::VectorXd& precision
   out.log_likelihood = -0.5 * (sums.square - explained) + log_determinant;
   return out;
 }
-
-using Eigen::VectorXd;
 
 RecursiveRegression::RecursiveRegression(const VectorXd& precision)
     : estimate_(VectorXd::Zero(precision.size())),

@@ -11,6 +11,15 @@ constexpr int kFewestRows = 3;        // successive slow rows of a joint that re
 constexpr double kSlowShare = 0.01;   // of the greatest healthy speed
 constexpr double kBeyondNoise = 3.0;  // times the noise of a measured velocity
 
+/// Returns the speed by joint below which a joint rests: a small share of its greatest healthy speed, and
+/// beyond the noise of its velocity.
+Eigen::VectorXd speed_of_rest(const BalanceModel& model) {
+  Eigen::VectorXd out = kSlowShare * model.top_speed;
+  for (int j = 0; j < out.size(); ++j)
+    if (model.setting.measures_velocity(j)) out[j] = std::max(out[j], kBeyondNoise * model.dq_noise[j]);
+  return out;
+}
+
 }  // namespace
 
 JointMask resting_rows(const BalanceRows& rows, const Eigen::VectorXd& slow) {
@@ -23,13 +32,6 @@ JointMask resting_rows(const BalanceRows& rows, const Eigen::VectorXd& slow) {
         for (int i = std::max(0, k - 1); i < std::min(rows.rows(), end + 1); ++i) out(i, j) = true;
       k = end + 1;
     }
-  return out;
-}
-
-Eigen::VectorXd speed_of_rest(const BalanceModel& model) {
-  Eigen::VectorXd out = kSlowShare * model.top_speed;
-  for (int j = 0; j < out.size(); ++j)
-    if (model.setting.measures_velocity(j)) out[j] = std::max(out[j], kBeyondNoise * model.dq_noise[j]);
   return out;
 }
 

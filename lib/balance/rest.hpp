@@ -12,10 +12,6 @@ namespace faultline {
 /// velocity that changes its sign takes less.
 JointMask resting_rows(const BalanceRows& rows, const Eigen::VectorXd& slow);
 
-/// Returns the speed by joint below which a joint rests: a small share of its greatest healthy speed, and
-/// beyond the noise of its velocity.
-Eigen::VectorXd speed_of_rest(const BalanceModel& model);
-
 /// Returns the rows in which joints rest that stick (BalanceModel::stiction). Empty if no joint sticks.
 JointMask sticking_rows(const BalanceRows& rows, const BalanceModel& model);
 

@@ -169,11 +169,7 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
     rows.column[setting.ripples[r].joint].middleCols<4>(layout.ripple(r)) =
         at_rows(ripple_columns(setting.ripples[r], at));
   rows.time_s.resize(grid.count);
-  rows.sample.resize(grid.count);
-  for (int m = 0; m < grid.count; ++m) {
-    rows.sample[m] = grid.first + m * grid.step;
-    rows.time_s[m] = log.time_s(rows.sample[m] + 0.5);
-  }
+  for (int m = 0; m < grid.count; ++m) rows.time_s[m] = log.time_s(grid.first + m * grid.step + 0.5);
   rows.lost = crossing_lost(log.lost, grid, grid.first);
   if (theta.size() > 0) add_spring_columns(setting, rigid, theta, at, kernel, grid, rows);
   return rows;

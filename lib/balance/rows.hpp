@@ -18,7 +18,6 @@ using JointMask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
 /// around time_s[k]; there is no row whose kernel leaves the log.
 struct BalanceRows {
   Eigen::VectorXd time_s;
-  Eigen::VectorXi sample;       ///< by row: the sample before its middle
   Eigen::MatrixXd torque;       ///< rows x joints, N m or N
   Eigen::MatrixXd q, dq;        ///< rows x joints, smoothed; `dq` is that of the link, behind the gear spring
   Eigen::MatrixXd step_square;  ///< rows x joints: sum of (weight of the kernel * step of the torque)^2

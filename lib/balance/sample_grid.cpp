@@ -60,8 +60,7 @@ double cost_of_step(const RowSteps& steps, int before, int row, int periods) {
 
 /// Keeps the better of two sequences that end at one point.
 void keep_better(const Ending& ending, std::vector<Ending>& endings) {
-  const auto known =
-      std::find_if(endings.begin(), endings.end(), [&](const Ending& e) { return e.point == ending.point; });
+  const auto known = std::ranges::find(endings, ending.point, &Ending::point);
   if (known == endings.end())
     endings.push_back(ending);
   else if (ending.cost < known->cost)
@@ -101,9 +100,8 @@ struct Sequences {
 
   /// Returns the index of the best ending of the last row.
   int best() const {
-    const auto least = std::min_element(ending.back().begin(), ending.back().end(),
-                                        [](const Ending& a, const Ending& b) { return a.cost < b.cost; });
-    return static_cast<int>(least - ending.back().begin());
+    return static_cast<int>(std::ranges::min_element(ending.back(), {}, &Ending::cost) -
+                            ending.back().begin());
   }
   double cost() const { return ending.back()[best()].cost; }
 };

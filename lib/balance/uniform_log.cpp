@@ -142,20 +142,13 @@ MeasuredMotion reading_of(const UniformLog& log, int joint) {
   return out;
 }
 
-UniformLog rows_from(const UniformLog& log, int first) {
-  const auto rest = [&](const Eigen::MatrixXd& values) -> Eigen::MatrixXd {
-    return values.rows() == 0 ? values : Eigen::MatrixXd(values.bottomRows(log.rows() - first));
+UniformLog part_of(const UniformLog& log, int first, int rows) {
+  const auto part = [&](const Eigen::MatrixXd& values) -> Eigen::MatrixXd {
+    return values.rows() == 0 ? values : Eigen::MatrixXd(values.middleRows(first, rows));
   };
-  return {log.time_s(first), log.period_s,  rest(log.q),
-          rest(log.dq),      rest(log.tau), {log.lost.begin() + first, log.lost.end()},
-          log.q_noise,       log.dq_noise};
-}
-
-UniformLog first_rows(UniformLog log, int rows) {
-  for (Eigen::MatrixXd* values : {&log.q, &log.dq, &log.tau})
-    if (values->rows() > rows) values->conservativeResize(rows, Eigen::NoChange);
-  log.lost.resize(static_cast<std::size_t>(rows));
-  return log;
+  const auto begin = log.lost.begin() + first;
+  return {log.time_s(first), log.period_s,          part(log.q), part(log.dq),
+          part(log.tau),     {begin, begin + rows}, log.q_noise, log.dq_noise};
 }
 
 UniformLog averaged(UniformLog log, int samples, bool torque_is_held) {

@@ -43,10 +43,8 @@ UniformLog uniform_log(LogSource& log, double period_s);
 /// mean is that of the torque that acts during these samples.
 UniformLog averaged(UniformLog log, int samples, bool torque_is_held);
 
-/// Returns the rows of the log from `first` on.
-UniformLog rows_from(const UniformLog& log, int first);
-/// Returns the first `rows` rows of the log.
-UniformLog first_rows(UniformLog log, int rows);
+/// Returns the `rows` rows of the log from `first` on.
+UniformLog part_of(const UniformLog& log, int first, int rows);
 
 /// Reads each whole log, from its start, onto grids of one period: the median of the periods of the logs.
 /// Throws Error(input) when there is no log, or one with fewer than two rows that have all values.

@@ -83,9 +83,8 @@ PieceRamps piece_ramps(const PiecePath& path, const Eigen::VectorXd& time_s, dou
 std::vector<bool> near_change(const PiecePath& path, int reach) {
   const int rows = static_cast<int>(path.size());
   std::vector<bool> out(rows, false);
-  for (int k = 0; k + 1 < rows; ++k)
-    if (path[k] != path[k + 1])
-      for (int i = std::max(0, k - reach + 1); i <= std::min(rows - 1, k + reach); ++i) out[i] = true;
+  for (const int k : changes_of(path))
+    for (int i = std::max(0, k - reach + 1); i <= std::min(rows - 1, k + reach); ++i) out[i] = true;
   return out;
 }
 

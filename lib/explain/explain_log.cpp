@@ -78,7 +78,7 @@ std::vector<Part> parts_beside(const UniformLog& log, const std::vector<FaultCla
   };
   std::vector<Part> busy;
   for (const FaultClaim& claim : known) busy.push_back({row(claim.onset_s), row(claim.end_s)});
-  std::sort(busy.begin(), busy.end(), [](const Part& a, const Part& b) { return a.begin < b.begin; });
+  std::ranges::sort(busy, {}, &Part::begin);
   std::vector<Part> out;
   int begin = 0;
   for (const Part& part : busy) {
@@ -105,8 +105,8 @@ ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& m
   ExplainedLog out;
   for (const Part& part : parts_beside(log, known)) {
     if (part.end - part.begin < kFewestCoarse || !out.faults.empty()) continue;
-    const std::optional<CoarseLog> alone = followed_log(
-        first_rows(part.begin > 0 ? rows_from(log, part.begin) : log, part.end - part.begin), model);
+    const std::optional<CoarseLog> alone =
+        followed_log(part_of(log, part.begin, part.end - part.begin), model);
     if (!alone) continue;
     ExplainedLog explained = explained_coarse(*alone, limits);
     out.faults = std::move(explained.faults);

@@ -46,14 +46,6 @@ MatrixXd squared_terms(const BalanceRows& rows, const ColumnLayout& layout, cons
   return out;
 }
 
-/// Returns the sums of products of rows that lie 0, 1, .. `order` apart.
-VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
-  VectorXd out = VectorXd::Zero(order + 1);
-  for (Eigen::Index lag = 0; lag <= order && lag < rows.size(); ++lag)
-    out[lag] = rows.head(rows.size() - lag).dot(rows.tail(rows.size() - lag));
-  return out;
-}
-
 /// Returns the size beyond which a row after a change belongs to a fault and is no noise: far above most rows
 /// of the log's motion.
 double largest_noise(const Eigen::Ref<const VectorXd>& rows, double usual) {
@@ -290,7 +282,7 @@ int LogFit::first_row(double at_s) const {
 }
 
 bool LogFit::is_silent(int joint, double time_s) const {
-  return std::any_of(known_.begin(), known_.end(), [&](const FaultClaim& claim) {
+  return std::ranges::any_of(known_, [&](const FaultClaim& claim) {
     return silences(claim.kind) && (claim.joint == joint || silences_all(claim)) && time_s >= claim.onset_s &&
            time_s < claim.end_s;
   });

@@ -44,11 +44,6 @@ struct Tangent {
 
   Tangent(int states, int numbers)
       : by_state(StateMatrix::Identity(states, states)), by_number(Eigen::MatrixXd::Zero(states, numbers)) {}
-
-  /// Advances the derivatives by a step of length `h`, s, with constant slopes: the Taylor series of fourth
-  /// order of the exponential, with steps that are halved, then doubled, if it would not converge (Moler and
-  /// Van Loan 2003, method 3).
-  void move(double h, const MotionSlopes& at);
 };
 
 void stop_locked(const MotionLaw& law, StateVector& state) {
@@ -64,6 +59,9 @@ void mean_of(const MotionSlopes& begin, const MotionSlopes& middle, const Motion
   out.torque = (begin.torque + 4.0 * middle.torque + end.torque) / 6.0;
 }
 
+/// Advances the derivatives by a step of length `h`, s, with constant slopes: the Taylor series of fourth
+/// order of the exponential, with steps that are halved, then doubled, if it would not converge (Moler and
+/// Van Loan 2003, method 3).
 template <int kStates>
 void move_tangent(double h, const MotionSlopes& at, Tangent& tangent) {
   constexpr int kJoints = kJointsOf<kStates>, kWide = kStates == Eigen::Dynamic ? kStates : 3 * kJoints;
@@ -106,10 +104,6 @@ void move_tangent(double h, const MotionSlopes& at, Tangent& tangent) {
       if (at.torque(j, p) != 0.0) moved += at.torque(j, p) * by_torque.col(j);
     tangent.by_number.col(p) = moved;
   }
-}
-
-void Tangent::move(double h, const MotionSlopes& at) {
-  with_state_count(static_cast<int>(by_state.rows()), [&](auto count) { move_tangent<count>(h, at, *this); });
 }
 
 JointVector acceleration_at(const MotionLaw& law, const StateVector& state, const JointVector& torque) {
@@ -166,7 +160,7 @@ Tangent move_with_slopes(const Part& part, const IntervalTorque& torque, int sub
     advance(law, torque, second, h, ddq, state);
     slopes_at(part.begin_s + (s + 2) * h, end);
     mean_of(begin, middle, end, mean);
-    out.move(2.0 * h, mean);
+    with_state_count(2 * n, [&](auto count) { move_tangent<count>(2.0 * h, mean, out); });
     std::swap(begin, end);
   }
   return out;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lib/balance/end_stop.hpp"
 #include "lib/explain/coarse/coarse_judge.hpp"
 
 namespace faultline {
@@ -20,10 +21,6 @@ constexpr double kStillChanges = 30.0;  // standard deviations of a measurement 
 constexpr int kHealthyRounds = 2;       // of integration and regression for the healthy robot
 constexpr double kFirstOnset_s = 0.5;   // s at the start of a log, in which no onset is searched,
 constexpr int kFirstOnset = 6;          // or samples, whichever is longer
-constexpr double kOutside = 0.05;       // share of the healthy range by which a joint must be outside
-constexpr double kWasFast = 0.15;       // share of its greatest healthy speed that it has before it halts
-constexpr double kHaltsIn_s = 0.06;     // longest time of the halt
-constexpr double kStaysFor_s = 0.30;    // time for which it stays, at least
 constexpr int kFewestStays = 4;         // samples for which it stays, at least
 constexpr double kStillShare = 0.02;    // share of the joint's usual speed in this log that is still rest,
 constexpr double kStillNoise = 1.5;     // beside so many standard deviations of a measured velocity
@@ -94,45 +91,35 @@ bool halts_at(const CoarseLog& log, int j, double side, int k, double still) {
   const int from = std::max(0, k - before);
   const auto speed = log.about.row(log.joints() + j);
   return speed[k] * side < still &&
-         (side * speed.segment(from, k - from + 1)).maxCoeff() > kWasFast * log.model->top_speed[j];
+         (side * speed.segment(from, k - from + 1)).maxCoeff() > kFastBeforeStop * log.model->top_speed[j];
 }
 
-/// Marks the intervals from a halt that lasts to the end of the stretch `begin` .. `end` outside the range.
-void mark_stop(CoarseLog& log, int j, double side, int begin, int end) {
+/// Marks the intervals of joint `j` (from 0) from a halt that lasts to the end of a stretch.
+void mark_stop(CoarseLog& log, int j, const StretchOutside& outside) {
   const auto speed = log.about.row(log.joints() + j);
   const double still = kStillShare * std::sqrt(speed.squaredNorm() / log.samples()) +
                        kStillNoise * std::sqrt(log.model->reading_variance[log.joints() + j]);
   const int stays = std::max(kFewestStays, static_cast<int>(kStaysFor_s / log.period_s()));
   int first = -1;
   bool stayed = false;
-  for (int k = begin; k < end && !stayed; ++k) {
-    if (first < 0 && halts_at(log, j, side, k, still)) first = k;
+  for (int k = outside.begin; k < outside.end && !stayed; ++k) {
+    if (first < 0 && halts_at(log, j, outside.side, k, still)) first = k;
     if (first < 0) continue;  // it may bounce before it stays
-    stayed = k < end - stays && speed.segment(k, stays).cwiseAbs().mean() < 2.0 * still;
+    stayed = k < outside.end - stays && speed.segment(k, stays).cwiseAbs().mean() < 2.0 * still;
   }
   if (!stayed) return;
   const int lead = std::max(2, static_cast<int>(kHaltsIn_s / log.period_s()));
-  const int from = std::max(0, first - lead), to = std::min(log.samples() - 1, end + 1);
+  const int from = std::max(0, first - lead), to = std::min(log.samples() - 1, outside.end + 1);
   log.stop.row(j).segment(from, to - from).setOnes();
 }
 
-/// Finds the end stops: a joint halted abruptly outside the range of the healthy logs and stays.
+/// Finds the end stops.
 void find_stops(CoarseLog& log) {
   const OneStepModel& m = *log.model;
   log.stop = MatrixXd::Zero(log.joints(), log.samples() - 1);
-  for (int j = 0; j < log.joints(); ++j) {
-    const double margin = kOutside * (m.q_high[j] - m.q_low[j]);
-    const auto side = [&](int k) {
-      const double q = log.about(j, k);
-      return q > m.q_high[j] + margin ? 1 : q < m.q_low[j] - margin ? -1 : 0;
-    };
-    for (int k = 0; k < log.samples();) {
-      int end = k + 1;
-      while (end < log.samples() && side(end) == side(k)) ++end;
-      if (side(k) != 0) mark_stop(log, j, side(k), k, end);
-      k = end;
-    }
-  }
+  for (int j = 0; j < log.joints(); ++j)
+    for (const StretchOutside& each : stretches_outside(log.about.row(j), m.q_low[j], m.q_high[j]))
+      mark_stop(log, j, each);
   log.keep = MatrixXd::Ones(log.read.rows(), log.samples());
   log.keep.topRightCorner(log.joints(), log.samples() - 1) -= log.stop;
   log.keep.bottomRightCorner(log.joints(), log.samples() - 1) -= log.stop;
@@ -155,7 +142,7 @@ std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model)
   out.variance = model.variance_of_readings(out.log);
   out.force_std = model.force_std(out.log, out.read);
   SmoothedLog smooth = smoothed_log(out);
-  if (smooth.wild) return followed_log(first_rows(std::move(out.log), *smooth.wild), model);
+  if (smooth.wild) return followed_log(part_of(out.log, 0, *smooth.wild), model);
   out.about = std::move(smooth.about);
   out.settled = smooth.settled;
   out.force_std = model.force_std(out.log, out.about);
@@ -167,7 +154,7 @@ std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model)
 }
 
 std::optional<CoarseLog> settled_part(const CoarseLog& log) {
-  return followed_log(first_rows(log.log, log.settled), *log.model);
+  return followed_log(part_of(log.log, 0, log.settled), *log.model);
 }
 
 bool repeats_are_evidence(const OneStepModel& model, int joint) {
