@@ -26,12 +26,12 @@ std::vector<LabelScore> scores_of(const LogExplanation& e) {
 /// Returns the evidence over time of `best` and of the hypotheses that come next to it.
 EvidenceTrace trace_of(const LogExplanation& e, const FaultHypothesis& best, const EvidenceCourse& course,
                        const LogEvidence& evidence, double until_s) {
-  std::vector<FaultLabel> labels = {{best.kind, best.joint}};
+  std::vector<FaultLabel> labels = {best.label()};
   std::vector<EvidenceCourse> courses = {course};
   for (const FaultHypothesis& h : e.best) {
     if (courses.size() == kTraced) break;
-    if (h.kind == FaultKind::unknown || (h.kind == best.kind && h.joint == best.joint)) continue;
-    labels.push_back({h.kind, h.joint});
+    if (h.kind == FaultKind::unknown || h.label() == best.label()) continue;
+    labels.push_back(h.label());
     courses.push_back(evidence.course(h));
   }
   return faultline::trace_of(labels, courses, until_s);
@@ -61,9 +61,7 @@ LogEvidence log_evidence(const LogFit& fit, const LogExplanation& e) {
           [&fit, &e] { return evidence_course(fit, e.free_form); }};
 }
 
-double least_limit(const EvidenceLimits& limits) {
-  return *std::min_element(limits.nats.begin(), limits.nats.end());
-}
+double least_limit(const EvidenceLimits& limits) { return *std::ranges::min_element(limits.nats); }
 
 std::vector<ExplainedFault> named_faults(const LogExplanation& e, const EvidenceLimits& limits,
                                          const LogEvidence& evidence, std::size_t most) {
@@ -78,7 +76,7 @@ std::vector<ExplainedFault> named_faults(const LogExplanation& e, const Evidence
     fault.residual_share = std::max(0.0, left - 1.0) / std::max(1.0, e.healthy_square - 1.0);
     for (auto h = best + 1; h != e.best.end(); ++h)
       if ((best->gain - h->gain) / scale < kAlmost || h->gain > kAlmostShare * best->gain)
-        fault.could_also_be.push_back({h->kind, h->joint});
+        fault.could_also_be.push_back(h->label());
     fault.limit = limits.of(best->kind);
     const EvidenceCourse course = evidence.course(*best);
     fault.alarm_s = course.alarm_s(fault.limit);

@@ -8,7 +8,6 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/hypothesis.hpp"
-#include "lib/explain/hypothesis_prices.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/search/search.hpp"
@@ -36,8 +35,7 @@ std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, int
   std::vector<Candidate> out;
   for (const Candidate& c : all)
     if (c.kind == kind && c.joint == joint) out.push_back(c);
-  std::stable_sort(out.begin(), out.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  std::ranges::stable_sort(out, std::ranges::greater{}, &Candidate::score);
   return out;
 }
 
@@ -46,8 +44,7 @@ std::vector<double> common_onsets(const std::vector<Candidate>& all) {
   std::vector<Candidate> sorted;
   for (const Candidate& c : all)
     if (c.kind != FaultKind::sensor_drift || c.score > 5.0) sorted.push_back(c);
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  std::ranges::stable_sort(sorted, std::ranges::greater{}, &Candidate::score);
   std::vector<double> out;
   for (const Candidate& c : sorted) {
     bool apart = true;
@@ -77,8 +74,7 @@ void judge_linear_kinds(const std::vector<Candidate>& all, const std::vector<dou
                         JudgedHypotheses& bench) {
   const LogFit& fit = bench.fit;
   std::vector<double> changes;  // of the work piece
-  for (int k = 0; k + 1 < static_cast<int>(fit.healthy().path.size()); ++k)
-    if (fit.healthy().path[k] != fit.healthy().path[k + 1]) changes.push_back(fit.time_s()[k + 1]);
+  for (const int k : changes_of(fit.healthy().path)) changes.push_back(fit.time_s()[k + 1]);
   for (const LinearFault& fault : fit.linear()) {
     const std::vector<Candidate> own = of(all, fault.kind, fault.joint);
     std::set<double> onsets = onsets_of(own, common, kOnsetsForAll);
@@ -87,7 +83,7 @@ void judge_linear_kinds(const std::vector<Candidate>& all, const std::vector<dou
       bench.go({.kind = fault.kind, .joint = fault.joint, .onset_s = t, .grows = fault.columns.grow});
     if (fault.columns.grow) continue;
     for (const Candidate& c : own)
-      if (c.end_s < kNeverEnds) bench.go_from(c);
+      if (c.end_s < kNeverEnds) bench.go(c);
   }
 }
 
@@ -101,19 +97,19 @@ void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change,
   for (int joint = 1; joint <= fit.joints(); ++joint) {
     std::vector<Candidate> drifts = of(all, FaultKind::sensor_drift, joint);
     if (drifts.size() > 3) drifts.resize(3);
-    for (const Candidate& c : drifts) bench.go_from(c);
+    for (const Candidate& c : drifts) bench.go(c);
     // Sticking friction gives the likelihood many maxima over the size: it starts from that of the search.
-    Candidate drift = drifts.empty() ? Candidate{.kind = FaultKind::sensor_drift, .joint = joint} : drifts[0];
+    FaultClaim drift = drifts.empty() ? FaultClaim{FaultKind::sensor_drift, joint} : drifts[0];
     for (std::size_t k = 0; k < std::min(kOnsetsOfDrifts, common.size()); ++k) {
       drift.onset_s = common[k];
-      bench.go_from(drift);
+      bench.go(drift);
     }
-    for (const Candidate& c : of(all, FaultKind::sensor_bias, joint)) bench.go_from(c);
+    for (const Candidate& c : of(all, FaultKind::sensor_bias, joint)) bench.go(c);
     const std::vector<Candidate> locks = of(all, FaultKind::locked, joint);
     for (const double t : onsets_of(locks, common, kOnsetsForAll)) bench.go({FaultKind::locked, joint, t});
     for (const Candidate& c : locks)
-      if (c.end_s < kNeverEnds) bench.go_from(c);
-    for (const Candidate& c : of(all, FaultKind::stuck_encoder, joint)) bench.go_from(c);
+      if (c.end_s < kNeverEnds) bench.go(c);
+    for (const Candidate& c : of(all, FaultKind::stuck_encoder, joint)) bench.go(c);
   }
 }
 
@@ -137,10 +133,9 @@ double gain_of(const LogFit& fit, const FreeForm& change) {
 bool stands_out(double free_gain, std::vector<Candidate> found, double least_evidence, const LogFit& fit) {
   const double least = std::max(kStandsOut, kMayPass * least_evidence);
   if (free_gain > least) return true;
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-  if (std::any_of(found.begin(), found.end(),
-                  [&](const Candidate& c) { return c.score > least || c.kind == FaultKind::sensor_bias; }))
+  std::ranges::stable_sort(found, std::ranges::greater{}, &Candidate::score);
+  if (std::ranges::any_of(
+          found, [&](const Candidate& c) { return c.score > least || c.kind == FaultKind::sensor_bias; }))
     return true;
   if (found.size() > kJudgedFirst) found.resize(kJudgedFirst);
   const double most = most_hidden_by_white_noise(fit.noise());
@@ -148,8 +143,8 @@ bool stands_out(double free_gain, std::vector<Candidate> found, double least_evi
   std::erase_if(found, [&](const Candidate& c) { return most * c.score < hidden; });
   JudgedHypotheses bench{fit, {}};
   bench.judged.reserve(found.size());
-  return std::any_of(found.begin(), found.end(), [&](const Candidate& c) {
-    const FaultHypothesis* h = bench.go_from(c);
+  return std::ranges::any_of(found, [&](const Candidate& c) {
+    const FaultHypothesis* h = bench.go(c);
     return h != nullptr && h->gain > hidden;
   });
 }

@@ -12,8 +12,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kLongestPush_s = 1.2;  // s of a collision: a longer force is another fault
-
 /// Times of a fault. A collision always has an end; a stuck encoder and a sensor bias begin with a sample.
 struct FaultTimes {
   double onset_s = 0.0, end_s = kNeverEnds;
@@ -48,7 +46,7 @@ LogExplanation judged_at(const LogFit& fit, const FaultTimes& at) {
   for (const LinearFault& fault : fit.linear())
     bench.go({fault.kind, fault.joint, at.onset_s, at.end_s, {}, fault.columns.grow});
   bench.go({FaultKind::collision, fit.joints(), at.onset_s,
-            at.end_s - at.onset_s < kLongestPush_s ? at.end_s : kNeverEnds});
+            at.end_s - at.onset_s < kLongestBlow_s ? at.end_s : kNeverEnds});
   for (int joint = 1; joint <= fit.joints(); ++joint) {
     bench.go({FaultKind::locked, joint, at.onset_s, at.end_s});
     bench.go({FaultKind::stuck_encoder, joint, at.sample_s, at.end_s});
@@ -82,11 +80,8 @@ std::optional<ExplainedFault> coarse(const UniformLog& uniform, const OneStepMod
     const bool begins_with_sample =
         label.kind == FaultKind::stuck_encoder || label.kind == FaultKind::sensor_bias;
     const bool passes = label.kind == FaultKind::collision;
-    bench.go({label.kind,
-              label.joint,
-              begins_with_sample ? at.sample_s : at.onset_s,
-              passes && lasts_s == 0.0 ? kLongestPush_s : lasts_s,
-              {}},
+    bench.go({label.kind, label.joint, begins_with_sample ? at.sample_s : at.onset_s,
+              passes && lasts_s == 0.0 ? kLongestBlow_s : lasts_s},
              1);
   }
   bench.integrate_best();

@@ -9,7 +9,6 @@
 #include "lib/explain/fault_spans.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
-#include "lib/explain/worn_spot.hpp"
 
 namespace faultline {
 namespace {
@@ -87,9 +86,8 @@ double residual_of_known(const LogFit& fit) {
 /// for healthy, and its evidence is counted in units of what is left of the whole log.
 bool is_too_weak(const ExplainedFault& fault, const EvidenceLimits& limits, const LogFit& fit) {
   const std::vector<FaultClaim>& known = fit.known();
-  const bool is_first = std::all_of(known.begin(), known.end(), [&](const FaultClaim& claim) {
-    return fault.claim.onset_s < claim.onset_s;
-  });
+  const bool is_first = std::ranges::all_of(
+      known, [&](const FaultClaim& claim) { return fault.claim.onset_s < claim.onset_s; });
   const double left = known.empty() ? 1.0 : std::max(1.0, fit.healthy().mean_square());
   return is_first && fault.evidence <= left * limits.of(fault.claim.kind);
 }
@@ -97,8 +95,7 @@ bool is_too_weak(const ExplainedFault& fault, const EvidenceLimits& limits, cons
 NextFault next_fault(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
                      const std::vector<FaultClaim>& known) {
   // The halt of a known lock raises the noise of the other joints and makes the search less exact.
-  const bool is_exact =
-      std::none_of(known.begin(), known.end(), [](const FaultClaim& claim) { return silences(claim.kind); });
+  const bool is_exact = std::ranges::none_of(known, &silences, &FaultClaim::kind);
   const double least = is_exact ? least_limit(limits) : 0.0;
   const ExplainedFit explained = explain_with_own_noise(
       log, model, known, [least](const LogFit& beside) { return explain_log(beside, least); });
@@ -108,9 +105,9 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   std::vector<ExplainedFault> named =
       named_faults(e, scaled(limits, residual_of_known(fit)), evidence, kFirsts);
   std::erase_if(named, [&](const ExplainedFault& fault) {
-    return is_too_weak(fault, limits, fit) ||
-           std::any_of(known.begin(), known.end(),
-                       [&](const FaultClaim& claim) { return begin_as_one(claim, fault.claim); });
+    return is_too_weak(fault, limits, fit) || std::ranges::any_of(known, [&](const FaultClaim& claim) {
+             return begin_as_one(claim, fault.claim);
+           });
   });
   NextFault out{std::move(named)};
   for (const ExplainedFault& fault : out.named)
@@ -183,11 +180,10 @@ std::vector<ExplainedFault> judged_beside(const UniformLog& log, const BalanceMo
 std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& model,
                                     const EvidenceLimits& limits, const std::vector<FaultClaim>& before,
                                     std::vector<ExplainedFault> faults) {
-  std::stable_sort(faults.begin(), faults.end(),
-                   [](const ExplainedFault& a, const ExplainedFault& b) { return a.evidence < b.evidence; });
+  std::ranges::stable_sort(faults, {}, &ExplainedFault::evidence);
   const RowNoise noise = LogFit(log, model, claims_but(faults, faults.size(), before)).noise();
   faults = judged_beside(log, model, limits, before, noise, Times::as_claimed, std::move(faults));
-  const auto poor = std::count_if(faults.begin(), faults.end(), &has_large_misfit);
+  const auto poor = std::ranges::count_if(faults, &has_large_misfit);
   if (poor == 0 || poor == static_cast<std::ptrdiff_t>(faults.size())) return faults;
   return judged_beside(log, model, limits, before, noise, Times::refined, std::move(faults));
 }
@@ -206,7 +202,7 @@ std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceM
       out.back().misfit = std::numeric_limits<double>::infinity();  // until it is judged
     }
     out = jointly(log, model, limits, known, std::move(out));
-    if (out.size() > 1 && std::none_of(out.begin(), out.end(), &has_large_misfit)) return out;
+    if (out.size() > 1 && std::ranges::none_of(out, &has_large_misfit)) return out;
   }
   return {};
 }
@@ -293,9 +289,7 @@ ExplainedLog explained_beside(const UniformLog& log, const BalanceModel& model, 
   }
   if (faults.size() > 1) faults = jointly(log, model, limits, before, std::move(faults));
   faults = unnested(std::move(faults));
-  std::stable_sort(faults.begin(), faults.end(), [](const ExplainedFault& a, const ExplainedFault& b) {
-    return a.claim.onset_s < b.claim.onset_s;
-  });
+  std::ranges::stable_sort(faults, {}, [](const ExplainedFault& fault) { return fault.claim.onset_s; });
   out.faults = without_worn_spots(log, model, before, without_slips(std::move(faults)));
   return out;
 }
@@ -311,7 +305,7 @@ std::vector<FaultClaim> apart_from(const std::vector<SignalStretch>& stretches,
                                    const std::vector<ExplainedFault>& faults) {
   std::vector<FaultClaim> out;
   for (const ExplainedFault& fault : faults)
-    if (std::none_of(stretches.begin(), stretches.end(), [&](const SignalStretch& stretch) {
+    if (std::ranges::none_of(stretches, [&](const SignalStretch& stretch) {
           return stretch.pair == SignalPair::drive && stretch.joint == fault.claim.joint &&
                  fault.claim.onset_s > stretch.onset_s - kAsOne_s &&
                  fault.claim.onset_s < stretch.end_s + kAsOne_s;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/false_position.hpp"
-
+// The part of judge.hpp for false positions.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/judge.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {

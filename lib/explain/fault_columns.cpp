@@ -6,7 +6,7 @@
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/explain/hypothesis_prices.hpp"
+#include "lib/explain/hypothesis.hpp"
 #include "lib/robot/payload.hpp"
 
 namespace faultline {

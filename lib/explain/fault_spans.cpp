@@ -273,7 +273,7 @@ std::optional<double> absent_from_s(const LogFit& fit, const WithAndWithout& lef
 
 std::vector<FaultClaim> followed(const UniformLog& log, const BalanceModel& model,
                                  std::vector<FaultClaim> lasting) {
-  if (std::all_of(lasting.begin(), lasting.end(), [](const FaultClaim& c) { return c.end_s < kNeverEnds; }))
+  if (std::ranges::all_of(lasting, [](const FaultClaim& claim) { return claim.end_s < kNeverEnds; }))
     return lasting;
   const LogFit fit(log, model, lasting);
   Eigen::Index begin = model.day_variance.size();

@@ -164,12 +164,11 @@ Change first_change(const LogFit& fit) {
 
 FreeForm free_form(const LogFit& fit) {
   const Stacked white = rows_to_explain(fit);
-  Change change = cheapest_change(fit, white, ChangeOf::all_joints);
+  const Change change = cheapest_change(fit, white, ChangeOf::all_joints);
   FreeForm out;
   out.onset_s = change.onset_s;
   out.left = white - fit.white_effects().times(change.day);
   out.end_s = explained_again_s(fit, out.left, change);
-  out.day = std::move(change.day);
   out.row_cost = row_costs(fit, out);
   return out;
 }

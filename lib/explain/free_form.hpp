@@ -31,8 +31,7 @@ struct FreeForm {
   double onset_s = 0.0;
   double end_s = kNeverEnds;   ///< time from which the healthy robot explains the rows again
   Eigen::VectorXd row_cost{};  ///< nats of each row: of its residual, or of a torque of its own
-  Eigen::VectorXd day{};       ///< effects, estimated from the rows before the onset
-  Stacked left{};              ///< whitened residuals with these effects of the day
+  Stacked left{};              ///< whitened residuals with the effects of the day before the onset
 };
 
 /// Estimates up to which moment the healthy robot explains the rows, and from when on again, if each row of

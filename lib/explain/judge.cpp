@@ -7,9 +7,6 @@
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/explain/false_position.hpp"
-#include "lib/explain/hypothesis.hpp"
-#include "lib/explain/hypothesis_prices.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "lib/explain/search/search.hpp"
+#include "lib/explain/hypothesis.hpp"
 
 namespace faultline {
 
@@ -11,6 +11,14 @@ namespace faultline {
 /// `claim.size` is the initial size of a sensor fault. Empty if the hypothesis cannot be judged, such as a
 /// lock in the last few rows.
 std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim);
+
+/// Judges a false position (FaultKind::sensor_bias or sensor_drift) that the velocity shows, too, or does not
+/// if it is measured independently. `claim.size` is the initial size.
+FaultHypothesis judge_false_position(const LogFit& fit, FaultClaim claim);
+
+/// Returns the columns of a fault that has a size, with the prior variance of its sizes; those of a false
+/// reading are linearised about size zero.
+FaultColumns columns_about_healthy(const LogFit& fit, const FaultClaim& claim);
 
 /// Judges a drive that limits its torque, which is of no known kind and looks like the loss of a share of the
 /// torque: at joint, onset and end of the claim, with the limit that explains the log best.

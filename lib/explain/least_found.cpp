@@ -8,7 +8,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/coarse/coarse_judge.hpp"
-#include "lib/explain/false_position.hpp"
+#include "lib/explain/judge.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
@@ -56,14 +56,9 @@ SizeKnowledge knowledge(const LogFit& fit, const FaultClaim& claim) {
 }
 
 SizeKnowledge knowledge(const CoarseLog& log, const FaultClaim& claim) {
-  const CoarseGuess guess{claim.kind,
-                          claim.joint,
-                          claim.onset_s,
-                          claim.end_s < kNeverEnds ? claim.end_s - claim.onset_s : 0.0,
-                          {}};
-  const VectorXd std = falsifies_position(claim.kind)
-                           ? VectorXd::Constant(1, prior_position_error(*log.model, claim.joint - 1))
-                           : fault_directions(*log.model, claim.kind, claim.joint).std;
+  const CoarseGuess guess{claim.kind, claim.joint, claim.onset_s,
+                          claim.end_s < kNeverEnds ? claim.end_s - claim.onset_s : 0.0};
+  const VectorXd std = prior_of_sizes(*log.model, claim.kind, claim.joint);
   return {judge_coarse(log, guess, {}).size_covariance, std.cwiseAbs2()};
 }
 

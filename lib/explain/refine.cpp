@@ -7,12 +7,10 @@
 
 #include "lib/explain/fault_spans.hpp"
 #include "lib/explain/judge.hpp"
+#include "lib/explain/search/white_search.hpp"
 
 namespace faultline {
 namespace {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr double kSameFault_s = 0.3;   // s between two onsets of one kind and joint that are one fault
 constexpr double kLeastGain = 0.1;     // nats by which a move explains more
@@ -23,7 +21,7 @@ constexpr double kStillEnough = 0.5;   // share of the evidence without an end t
 /// Returns whether the same fault is known from about this moment on, or as a drift that lasts: it does not
 /// begin twice.
 bool is_known(const LogFit& fit, const FaultClaim& claim) {
-  return std::any_of(fit.known().begin(), fit.known().end(), [&](const FaultClaim& known) {
+  return std::ranges::any_of(fit.known(), [&](const FaultClaim& known) {
     return column_kind(known.kind) == column_kind(claim.kind) && known.joint == claim.joint &&
            (std::abs(known.onset_s - claim.onset_s) < kSameFault_s ||
             (claim.kind == FaultKind::sensor_drift && claim.onset_s > known.onset_s &&
@@ -99,23 +97,16 @@ const FaultHypothesis* JudgedHypotheses::go(const FaultClaim& claim) {
   return &judged.back();
 }
 
-const FaultHypothesis* JudgedHypotheses::go_from(const Candidate& c) {
-  return go({c.kind, c.joint, c.onset_s, c.end_s, VectorXd::Constant(1, c.start)});
-}
-
 std::vector<FaultHypothesis> best_of_each(const std::vector<FaultHypothesis>& all) {
   std::vector<FaultHypothesis> out;
   for (const FaultHypothesis& h : all) {
-    auto known = std::find_if(out.begin(), out.end(), [&](const FaultHypothesis& o) {
-      return o.kind == h.kind && o.joint == h.joint;
-    });
+    const auto known = std::ranges::find(out, h.label(), &FaultHypothesis::label);
     if (known == out.end())
       out.push_back(h);
     else if (h.gain > known->gain)
       *known = h;
   }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const FaultHypothesis& a, const FaultHypothesis& b) { return a.gain > b.gain; });
+  std::ranges::stable_sort(out, std::ranges::greater{}, &FaultHypothesis::gain);
   return out;
 }
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "lib/explain/hypothesis.hpp"
-#include "lib/explain/search/white_search.hpp"
 
 namespace faultline {
 
@@ -17,7 +16,6 @@ struct JudgedHypotheses {
 
   /// Judges a claim. Null if it cannot be judged, or if a known fault silences its joint or is the same.
   const FaultHypothesis* go(const FaultClaim& claim);
-  const FaultHypothesis* go_from(const Candidate& candidate);
 };
 
 /// Returns the best of each kind and joint, best first.

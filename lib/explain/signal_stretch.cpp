@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "lib/explain/hypothesis_prices.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
 
@@ -158,8 +157,7 @@ JudgedStretch judge_stretch(const SignalStretch& stretch, const LogFit* fit) {
   std::vector<StretchScore> all = {score_free_form(stretch, fit)};
   for (std::optional<StretchScore> more : {of_loss(stretch, fit), of_sensor(stretch, fit)})
     if (more) all.push_back(std::move(*more));
-  std::stable_sort(all.begin(), all.end(),
-                   [](const StretchScore& a, const StretchScore& b) { return a.score() > b.score(); });
+  std::ranges::stable_sort(all, std::ranges::greater{}, &StretchScore::score);
   const StretchScore& best = all.front();
   JudgedStretch out{stretch, {}, best.in_balance};
   out.fault.claim = best.claim;
@@ -194,8 +192,8 @@ std::vector<JudgedStretch> judged_stretches(const std::vector<SignalStretch>& st
   for (const SignalStretch& drive : stretches) {
     if (drive.pair != SignalPair::drive) continue;
     JudgedStretch judged = judge_stretch(drive, fit);
-    if (std::any_of(others.begin(), others.end(),
-                    [&](const ExplainedFault& other) { return explains_more(other, judged); }))
+    if (std::ranges::any_of(others,
+                            [&](const ExplainedFault& other) { return explains_more(other, judged); }))
       continue;
     const auto before = std::find_if(out.rbegin(), out.rend(), [&](const JudgedStretch& earlier) {
       return earlier.stretch.joint == drive.joint;
@@ -210,15 +208,12 @@ std::vector<JudgedStretch> judged_stretches(const std::vector<SignalStretch>& st
   for (const JudgedStretch& drive : out) known.push_back(drive.fault.claim);
   for (const SignalStretch& law : stretches) {
     if (law.pair != SignalPair::control_law) continue;
-    if (std::any_of(known.begin(), known.end(),
-                    [&](const FaultClaim& claim) { return is_response(law, claim); }))
+    if (std::ranges::any_of(known, [&](const FaultClaim& claim) { return is_response(law, claim); }))
       continue;
     out.push_back(judge_stretch(law, fit));
     known.push_back(out.back().fault.claim);
   }
-  std::stable_sort(out.begin(), out.end(), [](const JudgedStretch& a, const JudgedStretch& b) {
-    return a.stretch.onset_s < b.stretch.onset_s;
-  });
+  std::ranges::stable_sort(out, {}, [](const JudgedStretch& judged) { return judged.stretch.onset_s; });
   return out;
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/worn_spot.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/golden_section.hpp"
+#include "lib/explain/explain_faults.hpp"
 
 namespace faultline {
 namespace {
@@ -103,7 +102,7 @@ double gain_of_visits(const LogFit& together, const LogFit& without, const std::
 /// Replaces the visits among the faults by one fault of no known kind that lasts from the first on.
 std::vector<ExplainedFault> with_one_spot(std::vector<ExplainedFault> faults, int joint) {
   const auto is_visit = [&](const ExplainedFault& fault) { return may_be_visit(fault.claim, joint); };
-  const auto first = std::find_if(faults.begin(), faults.end(), is_visit);
+  const auto first = std::ranges::find_if(faults, is_visit);
   first->could_also_be.insert(first->could_also_be.begin(), first->label());
   first->claim = {FaultKind::unknown, joint, first->claim.onset_s, kNeverEnds};
   faults.erase(std::remove_if(first + 1, faults.end(), is_visit), faults.end());

@@ -5,9 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "lib/explain/coarse/coarse_price.hpp"
-#include "lib/explain/hypothesis_prices.hpp"
-
 namespace faultline {
 namespace {
 
@@ -74,9 +71,6 @@ FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
   return out;
 }
 
-/// Returns whether a kind implies another trajectory than the smoothed one.
-bool moves_anew(FaultKind kind) { return kind != FaultKind::unknown; }
-
 }  // namespace
 
 bool moves_with_onset(FaultKind kind) {
@@ -122,9 +116,8 @@ JudgedGuess CoarseBench::judge_and_keep(const CoarseGuess& guess, int rounds,
   if (guess.kind == FaultKind::torque_loss && out.fit.size[0] > kFreeShare)
     out.kind = FaultKind::free_swinging;
   tried.push_back(guess);
-  const auto kept = std::find_if(best.begin(), best.end(), [&](const JudgedGuess& o) {
-    return o.kind == out.kind && o.guess.joint == out.guess.joint;
-  });
+  const auto kept = std::ranges::find_if(
+      best, [&](const JudgedGuess& o) { return o.kind == out.kind && o.guess.joint == out.guess.joint; });
   if (kept == best.end())
     best.push_back(out);
   else if (out.gain > kept->gain)
@@ -137,18 +130,17 @@ void CoarseBench::go_near(const CoarseGuess& guess, const std::shared_ptr<const 
 }
 
 void CoarseBench::integrate_best() {
-  const auto winner = std::max_element(
-      best.begin(), best.end(), [](const JudgedGuess& a, const JudgedGuess& b) { return a.gain < b.gain; });
+  const auto winner = std::ranges::max_element(best, {}, &JudgedGuess::gain);
   if (winner == best.end()) return;
   const bool is_any = winner->fit.mean_square() > kLargeResidual;
   const double enough = kMayWin * winner->gain;
   for (const JudgedGuess& j : std::vector<JudgedGuess>(best))
-    if ((is_any || j.gain > enough) && moves_anew(j.kind))
+    if ((is_any || j.gain > enough) && j.kind != FaultKind::unknown)  // that implies the smoothed trajectory
       judge_and_keep(j.guess, kCoarseRounds, j.fit.steps);
 }
 
 bool CoarseBench::tried_near(FaultKind kind, int joint, double onset_s) const {
-  return std::any_of(tried.begin(), tried.end(), [&](const CoarseGuess& g) {
+  return std::ranges::any_of(tried, [&](const CoarseGuess& g) {
     return g.kind == kind && g.joint == joint &&
            std::abs(g.onset_s - onset_s) < kSameSamples * log.period_s();
   });
@@ -163,8 +155,7 @@ double CoarseBench::best_gain() const {
 std::vector<FaultHypothesis> CoarseBench::ranked() const {
   std::vector<FaultHypothesis> out;
   for (const JudgedGuess& j : best) out.push_back(hypothesis_of(log, j));
-  std::stable_sort(out.begin(), out.end(),
-                   [](const FaultHypothesis& a, const FaultHypothesis& b) { return a.gain > b.gain; });
+  std::ranges::stable_sort(out, std::ranges::greater{}, &FaultHypothesis::gain);
   return out;
 }
 

@@ -52,12 +52,6 @@ inline constexpr double kLongSample_s = 0.05;  ///< longer samples bound a Newto
 inline constexpr double kLargeResidual = 3.0;  ///< mean square of residuals above which a fit may be wrong
 inline constexpr double kSettled_s = 2e-4;     ///< an onset that moves less is settled
 
-/// Returns whether a fault of the kind changes numbers of the law of motion, and lasts.
-inline bool is_linear_at_coarse(FaultKind kind) {
-  return kind == FaultKind::torque_loss || kind == FaultKind::friction_increase ||
-         kind == FaultKind::payload_change || kind == FaultKind::torque_sensor_error;
-}
-
 /// Returns whether the onset of a kind may lie between samples.
 bool moves_with_onset(FaultKind kind);
 

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "lib/balance/regress.hpp"
 #include "lib/balance/rows.hpp"
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/explain/coarse/coarse_price.hpp"
-#include "lib/explain/fault_claim.hpp"
+#include "lib/explain/hypothesis.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -27,6 +27,8 @@ constexpr double kTorqueForState = 15.0;   // a torque error of 3 % changes a st
 constexpr double kMostLossOfStart = 1.05;  // share of the torque lost that a round starts from, at most
 constexpr double kSettled_nats = 0.05;     // nats: a round that changes less is the last
 constexpr double kMostPayload = 2.5;       // times the mass that the link carries: the same for a payload
+constexpr double kCodesMove = 1e12;        // nats of a stuck encoder whose codes do not repeat
+constexpr double kUnreadSample = 0.7;      // nats of each sample that a stuck encoder excludes
 
 /// Returns what a false reading of size 1 adds to the measurements (2 joints x samples) from sample `from`
 /// on.
@@ -79,12 +81,7 @@ JointMatrix inertia_at(const CoarseLog& log, int sample) {
 MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const LinearSteps& steps, int from,
                     double tolerated_share) {
   const int n = log.joints(), j = guess.joint - 1;
-  MatrixXd std = log.force_std;
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < steps.intervals; ++k)
-      std(i, k) = log.stop(i, k) > 0.0
-                      ? kUnknownForce * log.model->torque_rms[i]
-                      : elementary::hypot(std(i, k), tolerated_torque(tolerated_share) * log.log.tau(k, i));
+  MatrixXd std = tolerated_force(log, tolerated_share);
   if (guess.kind == FaultKind::unknown)
     std.row(j)
         .tail(steps.intervals - std::max(0, from - 1))
@@ -173,7 +170,7 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
     in.read_column = effects;
     in.read = read_column(log, guess, from);
     if (at.size.size() > 0) in.reading -= at.size[0] * in.read;
-    out.precision[effects] = 1.0 / Eigen::numext::abs2(prior_position_error(m, j));
+    out.precision[effects] = 1.0 / Eigen::numext::abs2(prior_of_sizes(m, guess.kind, guess.joint)[0]);
   }
   if (at.size.size() > 0) out.about.segment(effects, at.size.size()) = at.size;
   if (how.move_onset) out.precision[columns - 1] = 1.0 / (log.period_s() * log.period_s());
@@ -226,9 +223,7 @@ Regressed regressed(const CoarseLog& log, const CoarseGuess& guess, const Linear
 }
 
 VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const VectorXd& size) {
-  VectorXd std = fault_directions(*log.model, guess.kind, guess.joint).std;
-  if (falsifies_position(guess.kind))
-    std = VectorXd::Constant(1, prior_position_error(*log.model, guess.joint - 1));
+  const VectorXd std = prior_of_sizes(*log.model, guess.kind, guess.joint);
   VectorXd out = size.cwiseMax(-kMostColumns * std).cwiseMin(kMostColumns * std);
   if (guess.kind == FaultKind::torque_loss) out[0] = std::clamp(out[0], 0.0, kMostLossOfStart);
   if (guess.kind == FaultKind::payload_change)
@@ -253,14 +248,75 @@ Setup next_round(const CoarseLog& log, const CoarseGuess& guess, const Setup& at
 /// Returns an explanation for a guess that cannot be integrated.
 CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
   CoarseExplanation out;
-  const auto sizes = fault_directions(*log.model, guess.kind, guess.joint).std.size();
   out.log_likelihood = -kImpossibleAtCoarse;
   out.day = VectorXd::Zero(log.day.cols());
-  out.size = VectorXd::Zero(sizes + (falsifies_position(guess.kind) ? 1 : 0));
+  out.size = VectorXd::Zero(prior_of_sizes(*log.model, guess.kind, guess.joint).size());
   out.left = out.log_ratio = MatrixXd::Zero(log.read.rows(), log.read.cols());
   out.variance = MatrixXd::Ones(log.read.rows(), log.read.cols());
   out.day_column = MatrixXd::Zero(log.read.size(), log.day.cols());
   return out;
+}
+
+int repeats_from(const CoarseLog& log, int j, int from) {
+  int same = 0;
+  for (int k = std::max(1, from); k < log.samples(); ++k) same += log.log.q(k, j) == log.log.q(k - 1, j);
+  return same;
+}
+
+/// Returns the share of the samples from `from` on, without two, that repeat the position before.
+double share_repeated(const CoarseLog& log, int j, int from) {
+  const int first = std::min(from + 2, log.samples() - 1);
+  return log.samples() - from > 3 ? static_cast<double>(repeats_from(log, j, first)) / (log.samples() - first)
+                                  : 0.0;
+}
+
+/// Returns the nats of a first false code that does not repeat the last true one: it may be any position that
+/// the joint passed since, while a true measurement lies within its noise.
+double price_of_new_code(const CoarseLog& log, int j, int from) {
+  if (from < 1) return 0.0;
+  const double passed = std::abs(log.log.q(from, j) - log.log.q(from - 1, j));
+  const double noise = std::sqrt(2.0 * std::numbers::pi * log.model->reading_variance[j]);
+  return passed > noise ? elementary::log(passed / noise) : 0.0;
+}
+
+double price_of_friction(const CoarseLog& log, int j, const CoarseExplanation& fit, int from) {
+  double power = 0.0;  // that the added friction takes
+  for (int k = from; k < log.samples(); ++k) {
+    const double v = log.about(log.joints() + j, k);
+    power += (fit.size[0] * v + fit.size[1] * elementary::tanh(v / log.model->body.friction_width()[j])) * v;
+  }
+  return log.samples() - from < 2 || power <= 0.0 ? kNoSuchSize : 0.0;
+}
+
+/// Returns the price of a guess in nats beside its residuals: for sizes that its kind does not have, for
+/// measurements and forces that it excludes, for codes that repeat or do not. `from` is its first sample.
+double coarse_price(const CoarseLog& log, const CoarseGuess& guess, const CoarseExplanation& fit, int from) {
+  const int j = guess.joint - 1, late = log.samples() - from;
+  switch (guess.kind) {
+    case FaultKind::torque_loss:
+      return (fit.size[0] < 0.0 ? kNoSuchSize : 0.0) + kBeyondLoss * std::max(0.0, fit.size[0] - kMostLoss);
+    case FaultKind::payload_change:
+      return fit.size[0] < 0.0 ? kNoSuchSize : 0.0;
+    case FaultKind::friction_increase:
+      return price_of_friction(log, j, fit, from);
+    case FaultKind::stuck_encoder: {
+      if (share_repeated(log, j, from) < kStuckShare) return kCodesMove;
+      const double kept = log.keep.row(j).tail(late).sum();
+      const double evidence = repeats_are_evidence(*log.model, j)
+                                  ? std::min(repeats_from(log, j, from), kMostRepeats) *
+                                        elementary::log(1.0 / log.model->repeat_share[j])
+                                  : 0.0;
+      return kStillJoint + kUnreadSample * kept + price_of_new_code(log, j, from) - evidence;
+    }
+    case FaultKind::locked:
+      return kStillJoint + (share_repeated(log, j, from) > kStuckShare && repeats_are_evidence(*log.model, j)
+                                ? kRepeatedReading * late
+                                : 0.0);
+    case FaultKind::unknown:
+      return kStillJoint + kForcedRow * late;
+    default:
+      return 0.0;
+  }
 }
 
 }  // namespace
@@ -271,7 +327,15 @@ VectorXd tolerated_variance(const OneStepModel& m, double tolerated_share) {
   return (tolerated_share * range).cwiseAbs2();
 }
 
-double tolerated_torque(double tolerated_share) { return kTorqueForState * tolerated_share; }
+MatrixXd tolerated_force(const CoarseLog& log, double tolerated_share) {
+  MatrixXd out = log.force_std;
+  for (int i = 0; i < out.rows(); ++i)
+    for (int k = 0; k < out.cols(); ++k)
+      out(i, k) = log.stop(i, k) > 0.0
+                      ? kUnknownForce * log.model->torque_rms[i]
+                      : elementary::hypot(out(i, k), kTorqueForState * tolerated_share * log.log.tau(k, i));
+  return out;
+}
 
 CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how) {
   const int n = log.joints(), j = guess.joint - 1, from = log.log.first_row(guess.onset_s);

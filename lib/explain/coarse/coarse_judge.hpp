@@ -15,7 +15,7 @@ struct CoarseGuess {
   int joint = 0;  ///< from 1
   double onset_s = 1e9;
   double duration_s = 0.0;        ///< 0: to the end of the log
-  Eigen::VectorXd start;          ///< sizes to begin with; empty: none
+  Eigen::VectorXd start{};        ///< sizes to begin with; empty: none
   bool velocity_is_true = false;  ///< of a drift, see FaultClaim
 };
 
@@ -32,10 +32,13 @@ struct CoarseJudging {
 /// before implies. Returns the best round, with its price subtracted.
 CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how);
 
-/// Returns the variance to add to each measurement (2 joints), and the standard deviation to add to a torque
-/// by its size, if errors of a share `tolerated_share` of each joint's range, top speed and torque are
-/// tolerated.
+/// Log-likelihood of a guess that cannot be integrated, times -1.
+inline constexpr double kImpossibleAtCoarse = 1e14;
+
+/// Returns the variance to add to each measurement (2 joints), and the standard deviation of the unknown
+/// force in each interval (joints x intervals), if errors of a share `tolerated_share` of each joint's range,
+/// top speed and torque are tolerated. The force of an end stop is large.
 Eigen::VectorXd tolerated_variance(const OneStepModel& model, double tolerated_share);
-double tolerated_torque(double tolerated_share);
+Eigen::MatrixXd tolerated_force(const CoarseLog& log, double tolerated_share);
 
 }  // namespace faultline

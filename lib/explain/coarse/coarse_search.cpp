@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/explain/hypothesis_prices.hpp"
+#include "lib/explain/hypothesis.hpp"
 #include "lib/robot/payload.hpp"
 
 namespace faultline {
@@ -73,7 +73,7 @@ Catalogue catalogue(const CoarseLog& log) {
     for (int j = 1; j <= n; ++j) {
       (kind == FaultKind::sensor_bias ? out.bias : out.drift).push_back(next);
       out.length.push_back(0);
-      out.groups.push_back({kind, j, 0.0, {next++}, VectorXd::Constant(1, prior_position_error(m, j - 1))});
+      out.groups.push_back({kind, j, 0.0, {next++}, prior_of_sizes(m, kind, j)});
     }
   return out;
 }
@@ -89,16 +89,9 @@ struct Base {
 
 Base base_of(const CoarseLog& log, double tolerated_share) {
   const OneStepModel& m = *log.model;
-  const int n = log.joints();
   FilterInput in;
   in.column = log.healthy_steps.columns(log.day, MatrixXd(log.day.rows(), 0));
-  MatrixXd std = log.force_std;
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < std.cols(); ++k)
-      std(i, k) = log.stop(i, k) > 0.0
-                      ? 30.0 * m.torque_rms[i]
-                      : elementary::hypot(std(i, k), tolerated_torque(tolerated_share) * log.log.tau(k, i));
-  in.process = process_covariance(log.healthy_steps, m.layout(), std);
+  in.process = process_covariance(log.healthy_steps, m.layout(), tolerated_force(log, tolerated_share));
   in.reading = log.read - log.about;
   in.variance = log.variance.colwise() + tolerated_variance(m, tolerated_share);
   Base out;
@@ -161,11 +154,9 @@ CoarseCandidate candidate(const CoarseLog& log, const Group& group, const OnsetS
   return out;
 }
 
-bool better(const CoarseCandidate& a, const CoarseCandidate& b) { return a.score > b.score; }
-
 /// Adds the two best of a group that lie apart to `out`.
 void keep_best(std::vector<CoarseCandidate> group, int apart, std::vector<CoarseCandidate>& out) {
-  std::stable_sort(group.begin(), group.end(), better);
+  std::ranges::stable_sort(group, std::ranges::greater{}, &CoarseCandidate::score);
   const CoarseCandidate* first = nullptr;
   for (const CoarseCandidate& c : group) {
     if (first == nullptr) {
@@ -203,15 +194,13 @@ std::vector<int> common_samples(const CoarseLog& log, const Base& base,
                                 const std::vector<CoarseCandidate>& all, int step) {
   std::vector<int> out;
   for (const CoarseCandidate& c : all) {
-    const bool apart =
-        std::all_of(out.begin(), out.end(), [&](int k) { return std::abs(c.sample - k) > 2 * step; });
+    const bool apart = std::ranges::all_of(out, [&](int k) { return std::abs(c.sample - k) > 2 * step; });
     if (apart) out.push_back(c.sample);
     if (out.size() == kOnsetsTried) break;
   }
   const std::optional<int> strike = strike_of(log, base);
   if (!strike) return out;
-  const bool apart =
-      std::all_of(out.begin(), out.end(), [&](int o) { return std::abs(*strike - 1 - o) > 1; });
+  const bool apart = std::ranges::all_of(out, [&](int o) { return std::abs(*strike - 1 - o) > 1; });
   if (apart) out.insert(out.begin(), std::max(log.first_onset(), *strike - 1));
   return out;
 }
@@ -266,7 +255,7 @@ CoarseSearch search_coarse(const CoarseLog& log) {
   CoarseSearch out;
   for (std::vector<CoarseCandidate>& group : candidates_of(log, base, {step, window}))
     keep_best(std::move(group), 4 * step, out.candidates);
-  std::stable_sort(out.candidates.begin(), out.candidates.end(), better);
+  std::ranges::stable_sort(out.candidates, std::ranges::greater{}, &CoarseCandidate::score);
   out.onsets = common_samples(log, base, out.candidates, step);
   return out;
 }

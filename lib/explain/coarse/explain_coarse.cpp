@@ -10,7 +10,6 @@
 #include "lib/explain/coarse/coarse_search.hpp"
 #include "lib/explain/coarse/fault_directions.hpp"
 #include "lib/explain/fault_spans.hpp"
-#include "lib/explain/hypothesis_prices.hpp"
 
 namespace faultline {
 namespace {
@@ -35,7 +34,11 @@ constexpr double kStillWithin = 5.0;     // standard deviations of a measurement
 constexpr double kStillRounding = 1e-6;  // rad, m, rad/s or m/s: rounding of measurements without noise
 constexpr int kFewestRepeated = 4;       // samples that repeat a code to the end, at least
 
-bool more(const JudgedGuess& a, const JudgedGuess& b) { return a.gain > b.gain; }
+/// Returns whether a fault of the kind changes numbers of the law of motion, and lasts.
+bool is_linear_at_coarse(FaultKind kind) {
+  return kind == FaultKind::torque_loss || kind == FaultKind::friction_increase ||
+         kind == FaultKind::payload_change || kind == FaultKind::torque_sensor_error;
+}
 
 /// Returns the best candidates of the search, and every linear kind at the onsets that stand out most. Judges
 /// unknown faults there.
@@ -48,8 +51,8 @@ std::vector<CoarseGuess> guesses_of(const CoarseSearch& search, CoarseBench& ben
   for (std::size_t k = 0; k < std::min(kOnsetsForAllKinds, search.onsets.size()); ++k) {
     const double onset = log.time_s(search.onsets[k]);
     for (const FaultLabel& label : fault_labels_of(*log.model))
-      if (is_linear_at_coarse(label.kind)) out.push_back({label.kind, label.joint, onset, 0.0, {}});
-    for (int j = 1; j <= n; ++j) bench.go({FaultKind::unknown, j, onset, 0.0, {}}, 1);
+      if (is_linear_at_coarse(label.kind)) out.push_back({label.kind, label.joint, onset});
+    for (int j = 1; j <= n; ++j) bench.go({FaultKind::unknown, j, onset}, 1);
   }
   return out;
 }
@@ -67,8 +70,7 @@ void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
         judge_coarse(bench.log, guess, {.rounds = 1, .tolerated_share = kFirstTolerated});
     rated.push_back({guess, e.log_likelihood, e.steps});
   }
-  std::stable_sort(rated.begin(), rated.end(),
-                   [](const Rated& a, const Rated& b) { return a.log_likelihood > b.log_likelihood; });
+  std::ranges::stable_sort(rated, std::ranges::greater{}, &Rated::log_likelihood);
   std::size_t approached = 0;
   for (const Rated& r : rated) {
     if (approached == kApproached) break;
@@ -81,7 +83,7 @@ void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
 
 /// Judges a lock of joint `j` (from 0) since `onset_s`.
 void judge_lock(int j, double onset_s, CoarseBench& bench) {
-  bench.go({FaultKind::locked, j + 1, onset_s, 0.0, {}}, 1);
+  bench.go({FaultKind::locked, j + 1, onset_s}, 1);
 }
 
 /// Judges a lock of joint `j` (from 0) since it stands still, if it does to the end of the log.
@@ -114,7 +116,7 @@ void judge_repeats(int j, CoarseBench& bench) {
   for (const int first : {same, same - 1}) {  // first false code: repeats the last true one, or is a new one
     if (first < 1) continue;
     const double onset_s = log.time_s(first) - 0.5 * log.period_s();
-    bench.go({FaultKind::stuck_encoder, j + 1, onset_s, 0.0, {}});
+    bench.go({FaultKind::stuck_encoder, j + 1, onset_s});
     judge_lock(j, onset_s, bench);
   }
 }
@@ -194,9 +196,9 @@ void refine(const JudgedGuess& start, CoarseBench& bench) {
 /// Returns the best few guesses, one of each kind and joint; a free joint is a lost torque.
 std::vector<JudgedGuess> to_refine(const std::vector<JudgedGuess>& all) {
   std::vector<JudgedGuess> sorted = all, out;
-  std::stable_sort(sorted.begin(), sorted.end(), more);
+  std::ranges::stable_sort(sorted, std::ranges::greater{}, &JudgedGuess::gain);
   for (JudgedGuess& j : sorted) {
-    const bool known = std::any_of(out.begin(), out.end(), [&](const JudgedGuess& o) {
+    const bool known = std::ranges::any_of(out, [&](const JudgedGuess& o) {
       return o.guess.kind == j.guess.kind && o.guess.joint == j.guess.joint;
     });
     if (!known) out.push_back(std::move(j));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/explain/coarse/fault_directions.hpp"
 
+#include "lib/explain/fault_claim.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/payload.hpp"
 
@@ -51,8 +52,10 @@ std::vector<FaultLabel> fault_labels_of(const OneStepModel& model) {
   return fault_labels(model.joints(), payload_links(model.body.rigid().chain), model.torque_is_measured);
 }
 
-double prior_position_error(const OneStepModel& model, int joint) {
-  return model.body.rigid().chain.geometry[joint].kind == AxisKind::revolute ? 0.1 : 0.03;
+Eigen::VectorXd prior_of_sizes(const OneStepModel& model, FaultKind kind, int joint) {
+  if (!falsifies_position(kind)) return fault_directions(model, kind, joint).std;
+  const bool turns = model.body.rigid().chain.geometry[joint - 1].kind == AxisKind::revolute;
+  return Eigen::VectorXd::Constant(1, turns ? 0.1 : 0.03);
 }
 
 }  // namespace faultline

@@ -20,7 +20,8 @@ struct FaultDirections {
 FaultDirections fault_directions(const OneStepModel& model, FaultKind kind, int joint);
 /// Returns the kinds and joints of the faults that are judged.
 std::vector<FaultLabel> fault_labels_of(const OneStepModel& model);
-/// Returns the prior standard deviation of a false position (rad or m) and of a drift (rad/s or m/s).
-double prior_position_error(const OneStepModel& model, int joint);
+/// Returns the prior standard deviation of the sizes of a fault, also of a false position (rad or m) and of a
+/// drift (rad/s or m/s).
+Eigen::VectorXd prior_of_sizes(const OneStepModel& model, FaultKind kind, int joint);
 
 }  // namespace faultline

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/search/drift_search.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/search/search.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -180,7 +179,8 @@ std::vector<Candidate> search_drift(const WhiteSearch& s, const InertiaRows& ine
   for (Eigen::Index i = 0; i < drifts.size(); ++i) {
     const double d = drifts[i];
     const VectorXd gain = gains.col(i) + d * impulse.product - 0.5 * d * d * impulse.square;
-    const std::vector<Candidate> best = peaks(fit, {FaultKind::sensor_drift, j + 1, 0.0, 0.0, d}, gain, 1);
+    const FaultClaim drift{FaultKind::sensor_drift, j + 1, 0.0, kNeverEnds, VectorXd::Constant(1, d)};
+    const std::vector<Candidate> best = peaks(fit, drift, gain, 1);
     out.insert(out.end(), best.begin(), best.end());
   }
   return out;

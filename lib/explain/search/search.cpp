@@ -8,7 +8,6 @@
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/explain/search/drift_search.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
@@ -88,8 +87,8 @@ std::vector<Candidate> search_standstill(const LogFit& fit, int j) {
   const int first = std::max(6, static_cast<int>(kLead_s / row_s));
   std::vector<Candidate> out;
   for (const int before : {0, 2, 5})
-    out.push_back({FaultKind::locked, j + 1,
-                   fit.time_s()[std::clamp(since - before, first, fit.count() - kTail)], 0.0, 0.0});
+    out.push_back(
+        {{FaultKind::locked, j + 1, fit.time_s()[std::clamp(since - before, first, fit.count() - kTail)]}});
   return out;
 }
 
@@ -98,15 +97,18 @@ std::vector<Candidate> search_jumps(const LogFit& fit, int j) {
   const std::vector<SensorJump> jumps = sensor_jumps(fit, j);
   std::vector<Candidate> out;
   for (const SensorJump& jump : jumps) {
-    out.push_back({FaultKind::sensor_bias, j + 1, jump.onset_s, kJumpScore, jump.size});
+    FaultClaim claim{FaultKind::sensor_bias, j + 1, jump.onset_s, kNeverEnds,
+                     VectorXd::Constant(1, jump.size)};
+    out.push_back({claim, kJumpScore});
     const SensorJump* back = nullptr;  // the next one that reverses it
     for (const SensorJump& other : jumps)
       if (other.onset_s > jump.onset_s &&
           std::abs(other.size + jump.size) < kJumpTakenBack * std::abs(jump.size) &&
           (back == nullptr || other.onset_s < back->onset_s))
         back = &other;
-    if (back != nullptr)
-      out.push_back({FaultKind::sensor_bias, j + 1, jump.onset_s, kJumpScore, jump.size, back->onset_s});
+    if (back == nullptr) continue;
+    claim.end_s = back->onset_s;
+    out.push_back({claim, kJumpScore});
   }
   return out;
 }
@@ -136,7 +138,7 @@ std::vector<Candidate> search(const LogFit& fit) {
     append(search_jumps(fit, j), out);
     for (const RepeatedCode& run : repeated_codes(fit, j))
       for (const FaultKind kind : {FaultKind::stuck_encoder, FaultKind::locked})
-        out.push_back({kind, j + 1, run.onset_s, kRepeatScore, 0.0, run.end_s});
+        out.push_back({{kind, j + 1, run.onset_s, run.end_s}, kRepeatScore});
   }
   std::erase_if(out, [&](const Candidate& c) { return fit.is_silent(c.joint, c.onset_s); });
   return out;

@@ -11,6 +11,10 @@ namespace faultline {
 /// onset by cumulative normal equations.
 std::vector<Candidate> search(const LogFit& fit);
 
+/// Returns onsets at which the position of a joint may begin to drift, for some rates and each joint: by the
+/// friction at the true velocity, the growing error of the position and the jump of the velocity.
+std::vector<Candidate> search_drifts(const WhiteSearch& search);
+
 /// Position of a joint without the deflection of its spring, and its apparent motion while it stands still.
 struct Standstill {
   Eigen::VectorXd place;  ///< by row, rad or m

@@ -148,13 +148,14 @@ std::vector<VectorXd> onset_gains(const WhiteSearch& s, const FaultColumns& colu
   return out;
 }
 
-std::vector<Candidate> peaks(const LogFit& fit, Candidate candidate, VectorXd score, int most) {
+std::vector<Candidate> peaks(const LogFit& fit, const FaultClaim& claim, VectorXd score, int most) {
   const double row_s = fit.model().setting.row_s();
   const int first = std::max(kFirstOnsetRow, static_cast<int>(kLead_s / row_s)), last = fit.count() - kTail;
   const int apart = std::max(1, static_cast<int>(kApart_s / row_s));
   for (int k = 0; k < fit.count(); ++k)
     if (k < first || k >= last || !(score[k] > kNothing)) score[k] = kNothing;
   std::vector<Candidate> out;
+  Candidate candidate{claim};
   for (int n = 0; n < most; ++n) {
     Eigen::Index at = 0;
     candidate.score = score.maxCoeff(&at);

@@ -10,14 +10,9 @@ namespace faultline {
 inline constexpr double kLead_s = 0.5;  ///< at the start of a log, in which no onset is searched
 inline constexpr int kTail = 2;         ///< rows at the end, in which none is searched
 
-/// An onset to judge for one kind and joint.
-struct Candidate {
-  FaultKind kind = FaultKind::none;
-  int joint = 0;  ///< from 1
-  double onset_s = 0.0;
+/// A claim to judge; its size, if any, is the initial one of a sensor fault.
+struct Candidate : FaultClaim {
   double score = 0.0;  ///< nats under white noise: only for the choice of onsets
-  double start = 0.0;  ///< initial size of a sensor fault
-  double end_s = kNeverEnds;
 };
 
 /// Healthy explanation for the search, with white noise of the variance of the rows: whitening would amplify
@@ -49,8 +44,8 @@ Eigen::MatrixXd over_rows(const Eigen::MatrixXd& sums_from_each_row, int length)
 std::vector<Eigen::VectorXd> onset_gains(const WhiteSearch& search, const FaultColumns& columns,
                                          const std::vector<int>& lengths);
 
-/// Returns the `most` highest scores that lie apart, among the rows that may hold an onset: each is
-/// `candidate` with its time and score.
-std::vector<Candidate> peaks(const LogFit& fit, Candidate candidate, Eigen::VectorXd score, int most);
+/// Returns the `most` highest scores that lie apart, among the rows that may hold an onset: each is `claim`
+/// with its onset and score.
+std::vector<Candidate> peaks(const LogFit& fit, const FaultClaim& claim, Eigen::VectorXd score, int most);
 
 }  // namespace faultline

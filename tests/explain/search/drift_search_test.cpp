@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Onsets of a drifting position, of a robot in closed form.
-#include "lib/explain/search/drift_search.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "lib/explain/search/search.hpp"
 #include "tests/explain/explained_scara.hpp"
 
 namespace faultline {
@@ -30,8 +29,7 @@ Log with_drift() {
 }
 
 const Candidate& best_of(const std::vector<Candidate>& all) {
-  return *std::max_element(all.begin(), all.end(),
-                           [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
+  return *std::ranges::max_element(all, {}, &Candidate::score);
 }
 
 TEST(DriftSearch, TheBestOnsetIsThatOfTheDrift) {
@@ -42,7 +40,7 @@ TEST(DriftSearch, TheBestOnsetIsThatOfTheDrift) {
   EXPECT_EQ(best.kind, FaultKind::sensor_drift);
   EXPECT_EQ(best.joint, 2);
   EXPECT_NEAR(best.onset_s, kOnset_s, 0.05);
-  EXPECT_DOUBLE_EQ(best.start, kDrift);
+  EXPECT_DOUBLE_EQ(best.size[0], kDrift);
   EXPECT_GT(best.score, 30.0);
 }
 
