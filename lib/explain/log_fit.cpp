@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/balance/end_stop.hpp"
 #include "lib/balance/rest.hpp"
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"

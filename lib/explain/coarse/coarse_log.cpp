@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "lib/balance/end_stop.hpp"
+#include "lib/balance/rest.hpp"
 #include "lib/explain/coarse/coarse_judge.hpp"
 
 namespace faultline {

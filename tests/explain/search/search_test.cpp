@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Onsets of a drifting position, of a robot in closed form.
+#include "lib/explain/search/search.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "lib/explain/search/search.hpp"
 #include "tests/explain/explained_scara.hpp"
 
 namespace faultline {
