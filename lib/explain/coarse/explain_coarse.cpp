@@ -81,11 +81,6 @@ void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
   }
 }
 
-/// Judges a lock of joint `j` (from 0) since `onset_s`.
-void judge_lock(int j, double onset_s, CoarseBench& bench) {
-  bench.go({FaultKind::locked, j + 1, onset_s}, 1);
-}
-
 /// Judges a lock of joint `j` (from 0) since it stands still, if it does to the end of the log.
 void judge_standstill(int j, CoarseBench& bench) {
   const CoarseLog& log = bench.log;
@@ -101,8 +96,10 @@ void judge_standstill(int j, CoarseBench& bench) {
   while (since > 0 && std::abs(q[since - 1] - rest) <= q_still && std::abs(v[since - 1]) <= v_still) --since;
   if (samples - since <= 3) return;
   for (const int before : {2, 1, 0})
-    for (const double share : {0.2, 0.5, 0.8})
-      judge_lock(j, log.time_s(std::max(1, since - before)) - share * log.period_s(), bench);
+    for (const double share : {0.2, 0.5, 0.8}) {
+      const double onset_s = log.time_s(std::max(1, since - before)) - share * log.period_s();
+      bench.go({FaultKind::locked, j + 1, onset_s}, 1);
+    }
 }
 
 /// Judges a stuck encoder and a lock of joint `j` (from 0) since its codes repeat to the end of the log.
@@ -117,7 +114,7 @@ void judge_repeats(int j, CoarseBench& bench) {
     if (first < 1) continue;
     const double onset_s = log.time_s(first) - 0.5 * log.period_s();
     bench.go({FaultKind::stuck_encoder, j + 1, onset_s});
-    judge_lock(j, onset_s, bench);
+    bench.go({FaultKind::locked, j + 1, onset_s}, 1);
   }
 }
 
@@ -136,10 +133,6 @@ bool try_times(double onset_step_s, double end_step_s, JudgedGuess& best, Coarse
   return true;
 }
 
-bool try_onset(double step, JudgedGuess& best, CoarseBench& bench) {
-  return try_times(step, 0.0, best, bench);
-}
-
 /// Moves the onset, and the end if there is one, by steps of a sample, then halved ones, while that explains
 /// more.
 JudgedGuess walked(JudgedGuess best, CoarseBench& bench) {
@@ -147,7 +140,7 @@ JudgedGuess walked(JudgedGuess best, CoarseBench& bench) {
   const bool ends = best.guess.duration_s > 0.0;
   double step = std::max(period, kLeastFirstMove_s);
   for (int moves = 0; moves < kMostMoves && step > std::max(kLeastMove * period, kLeastMove_s); ++moves) {
-    bool any = try_onset(-step, best, bench) || try_onset(step, best, bench);
+    bool any = try_times(-step, 0.0, best, bench) || try_times(step, 0.0, best, bench);
     if (ends) any = try_times(0.0, -step, best, bench) || try_times(0.0, step, best, bench) || any;
     if (!any) step *= 0.5;
   }
@@ -161,7 +154,7 @@ JudgedGuess moved(const JudgedGuess& start, CoarseBench& bench) {
   bool leapt = false;
   double leap = kFirstLeap_s;
   for (int leaps = 0; leaps < kMostLeaps && leap >= kLastLeap_s; ++leaps) {
-    if (try_onset(-leap, best, bench) || try_onset(leap, best, bench))
+    if (try_times(-leap, 0.0, best, bench) || try_times(leap, 0.0, best, bench))
       leapt = true;
     else
       leap *= 0.5;

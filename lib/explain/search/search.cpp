@@ -121,18 +121,14 @@ std::vector<Candidate> search_jumps(const LogFit& fit, int j) {
   return out;
 }
 
-/// The inertia matrix in each row, kg m^2, kg m or kg.
-struct InertiaRows {
-  std::vector<MatrixXd> column;  ///< by joint: rows x joints
-};
-
 /// Impulse of a jump of a joint's velocity by 1 rad/s, by onset: its product with the residual, and its own
 /// square.
 struct Impulse {
   VectorXd product, square;
 };
 
-Impulse impulse_of(const WhiteSearch& s, const InertiaRows& all, int j) {
+/// Returns the impulses of a joint; `inertia`: its column of the inertia matrix, rows x joints.
+Impulse impulse_of(const WhiteSearch& s, const MatrixXd& inertia) {
   const LogFit& fit = s.fit;
   const RowSetting& setting = fit.model().setting;
   const int rows = fit.count(),
@@ -143,10 +139,9 @@ Impulse impulse_of(const WhiteSearch& s, const InertiaRows& all, int j) {
     kernel[half + k] = elementary::exp(-0.5 * x * x) / (setting.kernel_s * std::sqrt(2.0 * std::numbers::pi));
   }
   VectorXd vector = VectorXd::Zero(rows), square = VectorXd::Zero(rows);
-  const MatrixXd& inertia = all.column[j];
   for (int i = 0; i < fit.joints(); ++i) {
     if (inertia.col(i).isZero(0.0)) continue;
-    const VectorXd y = s.weighted(i);
+    const VectorXd y = s.weight.segment(i * rows, rows).cwiseProduct(s.left.segment(i * rows, rows));
     for (int t = 0; t < rows; ++t) {
       const int a = std::max(0, t - half), b = std::min(rows, t + half + 1);
       vector[t] -= inertia(t, i) * y.segment(a, b - a).dot(kernel.segment(a - t + half, b - a));
@@ -241,29 +236,29 @@ class DriftSums {
   MatrixXd effects_;  ///< with the position that drifts by 1 rad/s or m/s: effects x onsets
 };
 
-InertiaRows inertia_rows(const LogFit& fit) {
+/// Returns the columns of the inertia matrix (kg m^2, kg m or kg) in each row, by joint: rows x joints.
+std::vector<MatrixXd> inertia_rows(const LogFit& fit) {
   const BalanceModel& m = fit.model();
   const Chain chain = chain_of(m.rigid, m.theta);
-  InertiaRows out;
-  out.column.assign(fit.joints(), MatrixXd(fit.count(), fit.joints()));
+  std::vector<MatrixXd> out(fit.joints(), MatrixXd(fit.count(), fit.joints()));
   for (int t = 0; t < fit.count(); ++t) {
     const JointVector q = fit.rows().q.row(t).transpose();
     const JointMatrix inertia = inertia_matrix(chain, q);
-    for (int j = 0; j < fit.joints(); ++j) out.column[j].row(t) = inertia.col(j).transpose();
+    for (int j = 0; j < fit.joints(); ++j) out[j].row(t) = inertia.col(j).transpose();
   }
   return out;
 }
 
 /// Returns onsets at which the position of joint `j` (from 0) may begin to drift, by friction at the true
 /// velocity, growing errors of position and the jump of the velocity, for a few rates of drift.
-std::vector<Candidate> search_drift(const WhiteSearch& s, const InertiaRows& inertia, int j) {
+std::vector<Candidate> search_drift(const WhiteSearch& s, const MatrixXd& inertia, int j) {
   std::vector<Candidate> out;
   const LogFit& fit = s.fit;
   const BalanceModel& m = fit.model();
   const ColumnLayout layout = m.layout();
   const double scale = m.rigid.chain.geometry[j].kind == AxisKind::revolute ? 1.0 : kSlideShare;
   const DriftSums sums(s, j);
-  const Impulse impulse = impulse_of(s, inertia, j);
+  const Impulse impulse = impulse_of(s, inertia);
   const auto friction = [&](double v) {
     return m.theta[layout.viscous(j)] * v +
            m.theta[layout.coulomb(j)] * elementary::tanh(v / m.setting.friction_width[j]);
@@ -280,8 +275,7 @@ std::vector<Candidate> search_drift(const WhiteSearch& s, const InertiaRows& ine
     const double d = drifts[i];
     const VectorXd gain = gains.col(i) + d * impulse.product - 0.5 * d * d * impulse.square;
     const FaultClaim drift{FaultKind::sensor_drift, j + 1, 0.0, kNeverEnds, VectorXd::Constant(1, d)};
-    const std::vector<Candidate> best = peaks(fit, drift, gain, 1);
-    out.insert(out.end(), best.begin(), best.end());
+    append(peaks(fit, drift, gain, 1), out);
   }
   return out;
 }
@@ -289,12 +283,9 @@ std::vector<Candidate> search_drift(const WhiteSearch& s, const InertiaRows& ine
 }  // namespace
 
 std::vector<Candidate> search_drifts(const WhiteSearch& s) {
-  const InertiaRows inertia = inertia_rows(s.fit);
+  const std::vector<MatrixXd> inertia = inertia_rows(s.fit);
   std::vector<Candidate> out;
-  for (int j = 0; j < s.fit.joints(); ++j) {
-    const std::vector<Candidate> of_joint = search_drift(s, inertia, j);
-    out.insert(out.end(), of_joint.begin(), of_joint.end());
-  }
+  for (int j = 0; j < s.fit.joints(); ++j) append(search_drift(s, inertia[j], j), out);
   return out;
 }
 

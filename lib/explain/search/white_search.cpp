@@ -77,11 +77,6 @@ VectorXd gains_of(const OnsetEquations& equations, const VectorXd& variance, int
 
 }  // namespace
 
-VectorXd WhiteSearch::weighted(int joint) const {
-  const int rows = fit.count();
-  return weight.segment(joint * rows, rows).cwiseProduct(left.segment(joint * rows, rows));
-}
-
 WhiteSearch white_search(const LogFit& fit) {
   const int rows = fit.count();
   WhiteSearch out{fit, Stacked(rows * fit.joints()), {}, {}};

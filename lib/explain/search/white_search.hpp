@@ -22,9 +22,6 @@ struct WhiteSearch {
   Stacked weight;                        ///< 1 over the variance of each row
   std::vector<Eigen::MatrixXd> effects;  ///< by joint, effects x rows: columns whose sizes have unit variance
   Stacked left;                          ///< residual torque, the effects subtracted
-
-  /// Returns the residual torque of joint `joint` (from 0), times its weight in each row.
-  Eigen::VectorXd weighted(int joint) const;
 };
 
 WhiteSearch white_search(const LogFit& fit);
