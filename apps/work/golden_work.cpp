@@ -15,8 +15,8 @@
 #include "lib/core/error.hpp"
 #include "lib/core/files/output_place.hpp"
 #include "lib/golden/check.hpp"
-#include "lib/golden/default_tolerances.hpp"
 #include "lib/golden/golden_folder.hpp"
+#include "lib/golden/tolerance.hpp"
 
 namespace faultline {
 namespace {

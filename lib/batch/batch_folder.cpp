@@ -13,7 +13,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/files/inner_file.hpp"
-#include "lib/core/files/temporary_name.hpp"
+#include "lib/core/files/temporary_file.hpp"
 
 namespace faultline {
 namespace {

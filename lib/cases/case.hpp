@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/fault/opinion.hpp"
+#include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
 

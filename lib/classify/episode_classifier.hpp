@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/fault/opinion.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/neural/mlp.hpp"
 #include "lib/neural/patterns.hpp"
 #include "lib/neural/rbfn.hpp"

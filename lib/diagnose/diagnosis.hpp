@@ -11,7 +11,7 @@
 #include "lib/core/issue.hpp"
 #include "lib/diagnose/condition.hpp"
 #include "lib/explain/evidence_course.hpp"
-#include "lib/fault/opinion.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/log/log_run.hpp"
 #include "lib/residual/residuals.hpp"
 

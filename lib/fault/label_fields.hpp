@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/core/json/json_fields.hpp"
-#include "lib/fault/opinion.hpp"
+#include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
 

@@ -14,7 +14,7 @@
 #include "lib/core/hash.hpp"
 #include "lib/core/utf8.hpp"
 #include "lib/golden/check.hpp"
-#include "lib/golden/default_tolerances.hpp"
+#include "lib/golden/tolerance.hpp"
 
 namespace faultline {
 namespace {

@@ -10,7 +10,7 @@
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
 #include "lib/diagnose/diagnose.hpp"
-#include "lib/golden/default_tolerances.hpp"
+#include "lib/golden/tolerance.hpp"
 #include "lib/golden/trace_tap.hpp"
 #include "lib/identify/identify.hpp"
 

@@ -6,7 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "lib/golden/observation.hpp"
+
 namespace faultline {
+
+struct Model;
 
 /// How far a number may be from what is expected: absolute + relative * |expected|.
 struct Tolerance {
@@ -36,5 +40,18 @@ bool length_may_differ(const ToleranceChain& chain);
 const std::vector<std::string>& tolerance_families();
 /// The family of a channel such as "dq2" or "velocity_rms_1"; empty when it is none.
 std::string tolerance_family(const std::string& channel);
+
+/// What a model judges by, as numbers with names that golden.toml can give tolerances to: the parameters of
+/// its robot ("model_a", "model_fv_1", with the standard deviation they were identified with, as far as the
+/// model keeps it), "trigger", "threshold" (nats) and those of faults that need more ("threshold_locked_2").
+std::vector<ParameterValue> values_of(const Model& model);
+
+/// What record writes for all logs: times within two samples, predicted motion within a fiftieth of the noise
+/// of a healthy log, residuals within 2 %. Arithmetic differs between machines by far less; a change of the
+/// program or of the model that a user would notice is more.
+Tolerances default_tolerances(const Model& model);
+
+/// For each identified parameter a tenth of its standard deviation.
+Tolerances default_tolerances(const ObservedIdentification& identification);
 
 }  // namespace faultline

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/fault/fault_size.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/log/log_source.hpp"
 #include "lib/robot/chain.hpp"
 

@@ -9,6 +9,8 @@
 
 namespace faultline {
 
+class Issues;
+
 enum class Quantity { time, q, dq, tau, q_ref, dq_ref, tau_ref, tau_meas };
 
 /// The quantities of a joint that a log can record, in the order of its columns.
@@ -50,5 +52,9 @@ ParsedName parse_name(const std::string& name);
 
 /// Returns the index of the column whose name fits the time best; -1 for none.
 int find_time_column(const std::vector<std::string>& names);
+
+/// Returns why a log with `found` positions does not fit `whose` robot (such as "the model") of `wanted`
+/// joints: the position without a column if the log's issues name one, else perhaps another robot.
+std::string joint_count_sentence(const Issues& issues, int found, const std::string& whose, int wanted);
 
 }  // namespace faultline

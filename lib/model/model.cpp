@@ -8,7 +8,6 @@
 #include "lib/core/hash.hpp"
 #include "lib/core/json/json_fields.hpp"
 #include "lib/core/json/json_matrix.hpp"
-#include "lib/core/json_members.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/fault/label_fields.hpp"
 #include "lib/identify/identification_json.hpp"

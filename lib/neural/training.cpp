@@ -3,12 +3,102 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "lib/neural/normal_equations.hpp"
 #include "lib/neural/training_monitor.hpp"
 
 namespace faultline {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Damping between Gauss-Newton and gradient descent, adapted to the quadratic model's prediction of a step.
+struct Damping {
+  double value = 0.0;
+  double growth = 2.0;
+
+  void accept(double gain_ratio) {
+    const double better = 2.0 * gain_ratio - 1.0;
+    value *= std::max(1.0 / 10.0, 1.0 - better * better * better);
+    value = std::max(value, 1e-15);
+    growth = 2.0;
+  }
+  void reject() {
+    value *= growth;
+    growth *= 2.0;
+  }
+};
+
+using Eigen::VectorXd;
+
+struct Pair {
+  VectorXd step;
+  VectorXd change;  // of the gradient
+};
+
+/// The two-loop recursion: minus the approximate inverse Hessian times the gradient.
+VectorXd direction(const std::deque<Pair>& memory, const VectorXd& gradient) {
+  VectorXd d = -gradient;
+  std::vector<double> alpha(memory.size());
+  for (std::size_t i = memory.size(); i-- > 0;) {
+    alpha[i] = memory[i].step.dot(d) / memory[i].step.dot(memory[i].change);
+    d -= alpha[i] * memory[i].change;
+  }
+  if (!memory.empty()) d *= memory.back().step.dot(memory.back().change) / memory.back().change.squaredNorm();
+  for (std::size_t i = 0; i < memory.size(); ++i) {
+    const double beta = memory[i].change.dot(d) / memory[i].step.dot(memory[i].change);
+    d += (alpha[i] - beta) * memory[i].step;
+  }
+  return d;
+}
+
+struct Point {
+  VectorXd weights;
+  LossGradient cost;
+};
+
+/// The function to be minimised.
+struct Objective {
+  const Patterns& patterns;
+  double weight_decay = 0.0;
+
+  LossGradient at(const Mlp& mlp) const {
+    return loss_gradient(mlp, patterns.inputs, patterns.targets, weight_decay);
+  }
+};
+
+/// Direction and initial length of a line search.
+struct Ray {
+  VectorXd along;
+  double length = 1.0;
+};
+
+/// Halves the step until the loss falls by a share of the slope's prediction (Armijo). Returns false, with
+/// the old weights, if no step does.
+bool search(Mlp& mlp, const Objective& objective, const Point& from, const Ray& ray, Point& found) {
+  const double slope = from.cost.gradient.dot(ray.along);
+  double length = ray.length;
+  for (int halvings = 0; halvings < 40; ++halvings, length *= 0.5) {
+    found.weights = from.weights + length * ray.along;
+    set_parameters(mlp, found.weights);
+    found.cost = objective.at(mlp);
+    if (found.cost.loss <= from.cost.loss + 1e-4 * length * slope) return true;
+  }
+  set_parameters(mlp, from.weights);
+  return false;
+}
+
+}  // namespace
 
 const char* to_string(TrainingStop stop) {
   switch (stop) {
@@ -81,6 +171,105 @@ TrainedMlp TrainingMonitor::finish(Mlp last, TrainingStop stop) {
   trained.summary.validation_mse = has_validation() ? mean_squared_error(trained.mlp, watched_.validation)
                                                     : std::numeric_limits<double>::quiet_NaN();
   return trained;
+}
+
+TrainedMlp train_back_propagation(Mlp start, const Patterns& training, const Patterns& validation,
+                                  const BackPropagationOptions& options, const Progress& progress) {
+  TrainingMonitor watch(start, {training, validation, options.stop, progress, "back-propagation"});
+  Mlp mlp = std::move(start);
+  Eigen::VectorXd weights = parameters_of(mlp), step = Eigen::VectorXd::Zero(weights.size());
+  std::vector<int> order(training.count());
+  std::iota(order.begin(), order.end(), 0);
+  Random random(options.seed);
+  const int batch = std::clamp(options.batch, 1, training.count());
+  double rate = options.learning_rate;
+  for (;;) {
+    shuffle(order, random);
+    double loss = 0.0;
+    for (int first = 0; first < training.count(); first += batch) {
+      const int size = std::min(batch, training.count() - first);
+      const std::vector<int> chosen(order.begin() + first, order.begin() + first + size);
+      const LossGradient now = loss_gradient(mlp, training.inputs(Eigen::all, chosen),
+                                             training.targets(Eigen::all, chosen), options.weight_decay);
+      step = options.momentum * step - rate * now.gradient;
+      weights += step;
+      set_parameters(mlp, weights);
+      loss += now.loss * size;
+    }
+    rate *= options.rate_decay;
+    if (const auto stop = watch.after_iteration(mlp, loss / training.count()))
+      return watch.finish(std::move(mlp), *stop);
+  }
+}
+
+TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const Patterns& validation,
+                                     const LevenbergMarquardtOptions& options, const Progress& progress) {
+  TrainingMonitor watch(start,
+                        {training, validation, options.stop, progress, "Levenberg-Marquardt training"});
+  Mlp mlp = std::move(start);
+  const bool projected = has_projected_outputs(mlp);
+  if (projected) mlp.layers.back() = fitted_outputs(mlp, training, options.weight_decay);
+  VectorXd weights = parameters_of(mlp);
+  LossGradient now = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);
+  Damping damping;
+  for (;;) {
+    const GaussNewtonSystem system(mlp, training.inputs, options.weight_decay);
+    if (damping.value == 0.0) damping.value = options.initial_damping * system.mean_diagonal();
+    if (now.gradient.norm() < 1e-13) return watch.finish(std::move(mlp), TrainingStop::converged);
+    for (int tries = 0;; ++tries) {
+      if (tries == 30) {
+        set_parameters(mlp, weights);
+        return watch.finish(std::move(mlp), TrainingStop::no_descent);
+      }
+      const std::optional<VectorXd> step = system.step(now.gradient, damping.value);
+      if (!step) {
+        damping.reject();
+        continue;
+      }
+      set_parameters(mlp, weights + *step);
+      if (projected) mlp.layers.back() = fitted_outputs(mlp, training, options.weight_decay);
+      LossGradient next = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);
+      const double promised = 0.5 * step->dot(damping.value * *step - now.gradient);
+      if (next.loss < now.loss) {
+        damping.accept((now.loss - next.loss) / promised);
+        weights = parameters_of(mlp);
+        now = std::move(next);
+        break;
+      }
+      damping.reject();
+    }
+    if (const auto stop = watch.after_iteration(mlp, now.loss)) return watch.finish(std::move(mlp), *stop);
+  }
+}
+
+TrainedMlp train_quasi_newton(Mlp start, const Patterns& training, const Patterns& validation,
+                              const QuasiNewtonOptions& options, const Progress& progress) {
+  TrainingMonitor watch(start, {training, validation, options.stop, progress, "quasi-Newton training"});
+  Mlp mlp = std::move(start);
+  const Objective objective{training, options.weight_decay};
+  Point now{parameters_of(mlp), objective.at(mlp)}, next;
+  std::deque<Pair> memory;
+  for (;;) {
+    if (now.cost.gradient.norm() < 1e-12) return watch.finish(std::move(mlp), TrainingStop::converged);
+    Ray ray{direction(memory, now.cost.gradient)};
+    if (ray.along.dot(now.cost.gradient) >= 0.0) {
+      memory.clear();
+      ray.along = -now.cost.gradient;
+    }
+    if (memory.empty()) ray.length = std::min(1.0, 1.0 / now.cost.gradient.norm());
+    if (!search(mlp, objective, now, ray, next)) {
+      if (memory.empty()) return watch.finish(std::move(mlp), TrainingStop::no_descent);
+      memory.clear();
+      continue;
+    }
+    Pair pair{next.weights - now.weights, next.cost.gradient - now.cost.gradient};
+    if (pair.step.dot(pair.change) > 1e-12 * pair.step.norm() * pair.change.norm())
+      memory.push_back(std::move(pair));
+    if (static_cast<int>(memory.size()) > options.memory) memory.pop_front();
+    std::swap(now, next);
+    if (const auto stop = watch.after_iteration(mlp, now.cost.loss))
+      return watch.finish(std::move(mlp), *stop);
+  }
 }
 
 }  // namespace faultline

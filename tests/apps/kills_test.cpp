@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "lib/core/files/temporary_name.hpp"
+#include "lib/core/files/temporary_file.hpp"
 #include "lib/core/random.hpp"
 #include "tests/batch/batch_world.hpp"
 #include "tests/support/signalled_program.hpp"

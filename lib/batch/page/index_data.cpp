@@ -7,7 +7,6 @@
 
 #include "lib/batch/page/index_page.hpp"
 #include "lib/core/distributions.hpp"
-#include "lib/core/outgoing/inside_script.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"

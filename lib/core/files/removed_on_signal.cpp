@@ -9,8 +9,6 @@
 #include <array>
 #include <atomic>
 
-#include "lib/core/files/held_signals.hpp"
-
 namespace faultline {
 
 enum SlotState { kFree, kBeingSet, kArmed, kTaken };

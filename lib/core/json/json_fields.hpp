@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "lib/core/json/json_matrix.hpp"
-#include "lib/core/json_members.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/utf8.hpp"
 
@@ -142,8 +141,8 @@ class FieldWriter {
 
 /// Reads the members of a struct from an object. A member that is missing or has another type throws what
 /// nlohmann::json throws; null is NaN for a number. With `kFinite` a number, and always a number of an Eigen
-/// vector or matrix, is read as by json_members: Error(input), which names `where` and the key, unless it is
-/// finite.
+/// vector or matrix, is read as by number_from_json(): Error(input), which names `where` and the key, unless
+/// it is finite.
 template <typename Json, bool kFinite = false>
 class FieldReader {
  public:

@@ -5,9 +5,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "lib/core/json_members.hpp"
+#include "lib/core/json_values.hpp"
 
-/// Vectors and matrices as JSON without loss of a bit both ways; members are read as by json_members.
+/// Vectors and matrices as JSON without loss of a bit both ways; members are read as by number_from_json().
 namespace faultline {
 
 nlohmann::json vector_to_json(const Eigen::VectorXd& values);

@@ -13,4 +13,7 @@ std::string json_text(const nlohmann::ordered_json& json);
 /// The same for text that is JSON already, such as one line of it.
 std::string inert_json(const std::string& json);
 
+/// Returns JSON that is safe in a script of a page: no "</script>" or "<!--" in it can end or open anything.
+std::string inside_script(const std::string& json);
+
 }  // namespace faultline

@@ -11,7 +11,6 @@
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
-#include "lib/log/columns/joint_count.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {

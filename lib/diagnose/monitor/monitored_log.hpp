@@ -8,7 +8,7 @@
 #include "lib/explain/day_effects.hpp"
 #include "lib/explain/decide_log.hpp"
 #include "lib/explain/signal_stretch.hpp"
-#include "lib/fault/opinion.hpp"
+#include "lib/fault/fault_kind.hpp"
 #include "lib/residual/relation/relation_detector.hpp"
 #include "lib/residual/residuals.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/log/columns/joint_count.hpp"
+#include "lib/log/channel_names.hpp"
 
 namespace faultline {
 namespace {

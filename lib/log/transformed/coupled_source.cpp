@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "lib/core/error.hpp"
+#include "lib/log/channel_names.hpp"
 #include "lib/log/column_matching.hpp"
-#include "lib/log/columns/joint_count.hpp"
 #include "lib/log/log_channels.hpp"
 #include "lib/log/transformed/changed_source.hpp"
 

@@ -13,7 +13,6 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/files/temporary_name.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace faultline {

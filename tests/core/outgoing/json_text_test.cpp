@@ -19,5 +19,12 @@ TEST(JsonText, ReplacesWhatIsNoUtf8) {
   EXPECT_EQ(json_text({{"a", "\xff"}}), "{\n  \"a\": \"\xef\xbf\xbd\"\n}\n");
 }
 
+TEST(InsideScript, NothingCanEndTheScriptAndTheJsonSaysTheSame) {
+  const nlohmann::json json{{"name", "</script><!-- <b>run 1</b> & 'x'"}, {"values", {1, 2.5}}};
+  const std::string text = inside_script(json.dump());
+  EXPECT_EQ(text.find('<'), std::string::npos) << text;
+  EXPECT_EQ(nlohmann::json::parse(text), json);
+}
+
 }  // namespace
 }  // namespace faultline
