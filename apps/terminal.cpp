@@ -13,7 +13,6 @@
 #include <cstring>
 
 #include "lib/core/error.hpp"
-#include "lib/core/paint.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

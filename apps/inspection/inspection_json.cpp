@@ -6,7 +6,7 @@
 #include "lib/core/issue.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
-#include "lib/core/utf8.hpp"
+#include "lib/core/text.hpp"
 #include "lib/log/log_run.hpp"
 
 namespace faultline {

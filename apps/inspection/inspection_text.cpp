@@ -6,7 +6,6 @@
 
 #include "apps/inspection/inspection.hpp"
 #include "apps/terminal.hpp"
-#include "lib/core/paint.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

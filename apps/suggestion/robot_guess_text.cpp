@@ -5,7 +5,6 @@
 
 #include "apps/suggestion/robot_guess.hpp"
 #include "lib/core/text.hpp"
-#include "lib/core/utf8.hpp"
 #include "lib/log/column_matching.hpp"
 #include "lib/robot/toml/toml_text.hpp"
 

@@ -13,7 +13,6 @@
 #include "lib/core/error.hpp"
 #include "lib/core/issue.hpp"
 #include "lib/core/text.hpp"
-#include "lib/core/utf8.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/units.hpp"
 

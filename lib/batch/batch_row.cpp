@@ -13,7 +13,6 @@
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/core/utf8.hpp"
 #include "lib/diagnose/fault_event_fields.hpp"
 #include "lib/fault/fault_kind.hpp"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "lib/core/hash.hpp"
-#include "lib/core/utf8.hpp"
+#include "lib/core/text.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/report/html/html_report.hpp"
 #include "lib/report/text.hpp"

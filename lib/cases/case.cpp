@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/cases/case.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -114,15 +115,9 @@ void add_metric(ContentHash& hash, const Metric& metric) {
 }  // namespace
 
 const char* to_string(CaseOutcome outcome) {
-  switch (outcome) {
-    case CaseOutcome::unconfirmed:
-      return "unconfirmed";
-    case CaseOutcome::confirmed:
-      return "confirmed";
-    case CaseOutcome::rejected:
-      return "rejected";
-  }
-  return "unconfirmed";
+  static constexpr std::array kNames{"unconfirmed", "confirmed", "rejected"};
+  static_assert(kNames.size() == static_cast<std::size_t>(CaseOutcome::rejected) + 1);
+  return kNames[static_cast<std::size_t>(outcome)];
 }
 
 CaseOutcome case_outcome_from(const std::string& name) {
@@ -133,17 +128,9 @@ CaseOutcome case_outcome_from(const std::string& name) {
 }
 
 const char* to_string(CaseOrigin origin) {
-  switch (origin) {
-    case CaseOrigin::field:
-      return "field";
-    case CaseOrigin::labelled:
-      return "labelled";
-    case CaseOrigin::diagnosed:
-      return "diagnosed";
-    case CaseOrigin::simulated:
-      return "simulated";
-  }
-  return "simulated";
+  static constexpr std::array kNames{"field", "labelled", "diagnosed", "simulated"};
+  static_assert(kNames.size() == static_cast<std::size_t>(CaseOrigin::simulated) + 1);
+  return kNames[static_cast<std::size_t>(origin)];
 }
 
 CaseOrigin case_origin_from(const std::string& name) {

@@ -8,7 +8,7 @@
 #include "lib/cases/possible_labels.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/plain_name.hpp"
-#include "lib/core/utf8.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {

@@ -161,13 +161,7 @@ std::vector<CriterionOptions> settings_to_try(const CriterionOptions& start) {
 }  // namespace
 
 const char* to_string(CriterionKind kind) {
-  switch (kind) {
-    case CriterionKind::consecutive:
-      return "consecutive";
-    case CriterionKind::log_odds:
-      return "log_odds";
-  }
-  return "";
+  return kind == CriterionKind::consecutive ? "consecutive" : "log_odds";
 }
 
 std::vector<SampleEpisode> apply_criterion(const CriterionOptions& options, const OutputMeaning& meaning,

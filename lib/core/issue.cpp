@@ -2,6 +2,7 @@
 #include "lib/core/issue.hpp"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -11,15 +12,9 @@
 namespace faultline {
 
 const char* to_string(Severity severity) {
-  switch (severity) {
-    case Severity::note:
-      return "note";
-    case Severity::warning:
-      return "warning";
-    case Severity::severe:
-      return "severe";
-  }
-  return "unknown";
+  static constexpr std::array kNames{"note", "warning", "severe"};
+  static_assert(kNames.size() == static_cast<std::size_t>(Severity::severe) + 1);
+  return kNames[static_cast<std::size_t>(severity)];
 }
 
 void Issues::add(Issue issue) {

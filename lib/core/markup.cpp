@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "lib/core/text.hpp"
-#include "lib/core/utf8.hpp"
 
 namespace faultline {
 namespace {

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <sstream>
-
-#include "lib/core/utf8.hpp"
 
 namespace faultline {
 namespace {
@@ -50,6 +50,27 @@ std::size_t paint_length(std::string_view text) {
   return end != std::string_view::npos && text[end] == 'm' ? end + 1 : 0;
 }
 
+unsigned char byte_at(std::string_view text, std::size_t i) {
+  return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
+}
+
+/// Returns the length of the character at `i`, 0 for none (RFC 3629: no overlong forms, no surrogates).
+std::size_t character_length(std::string_view text, std::size_t i) {
+  const unsigned char first = byte_at(text, i);
+  if (first < 0x80) return 1;
+  const std::size_t length = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((byte_at(text, i + k) & 0xc0) != 0x80) return 0;
+  const unsigned char second = byte_at(text, i + 1);
+  const bool overlong = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
+  const bool outside = (first == 0xed && second > 0x9f) || (first == 0xf4 && second > 0x8f);
+  return overlong || outside ? 0 : length;
+}
+
+/// In the order of Paint.
+constexpr std::array kCodes{"1", "2", "31", "33", "32", "1;31", "1;32"};
+static_assert(kCodes.size() == static_cast<std::size_t>(Paint::bold_green) + 1);
+
 }  // namespace
 
 std::size_t command_length(std::string_view valid, std::size_t i) {
@@ -62,15 +83,9 @@ std::size_t command_length(std::string_view valid, std::size_t i) {
 }
 
 std::string printable(std::string_view text) {
-  const std::string valid = valid_utf8(text);
-  std::string safe;
-  for (std::size_t i = 0; i < valid.size();) {
-    const std::size_t command = command_length(valid, i);
-    const bool blank = valid[i] == '\n' || valid[i] == '\r' || valid[i] == '\t';
-    safe += blank ? ' ' : command > 0 ? '?' : valid[i];
-    i += std::max<std::size_t>(command, 1);
-  }
-  return safe;
+  std::string line = outgoing(text, false);
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line;
 }
 
 std::string shortened(std::string_view text, std::size_t most) { return cut(printable(text), most); }
@@ -118,6 +133,22 @@ std::string wrapped(const std::string& text, const std::string& indent, int widt
 
 std::string counted(long long count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string valid_utf8(std::string_view text) {
+  std::string valid;
+  valid.reserve(text.size());
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = character_length(text, i);
+    valid += length ? text.substr(i, length) : std::string_view("\xef\xbf\xbd");
+    i += length ? length : 1;
+  }
+  return valid;
+}
+
+std::string painted(std::string_view text, Paint paint, bool color) {
+  return color ? fmt::format("\x1b[{}m{}\x1b[0m", kCodes[static_cast<std::size_t>(paint)], text)
+               : std::string(text);
 }
 
 }  // namespace faultline

@@ -36,4 +36,13 @@ std::string wrapped(const std::string& text, const std::string& indent, int widt
 /// Returns "1 log", "3 logs".
 std::string counted(long long count, std::string_view what);
 
+/// Returns the text with each byte that is not part of valid UTF-8 replaced by U+FFFD. File names and
+/// operators' notes can contain any bytes; stored, compared and printed JSON and XML is UTF-8.
+std::string valid_utf8(std::string_view text);
+
+enum class Paint { bold, dim, red, yellow, green, bold_red, bold_green };
+
+/// Returns `text` between terminal colour codes if `color`, else unchanged.
+std::string painted(std::string_view text, Paint paint, bool color);
+
 }  // namespace faultline

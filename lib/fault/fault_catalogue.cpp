@@ -235,35 +235,13 @@ const char* unit_of(SizeMeasure measure, bool turns) {
 }
 
 const char* usual_of(SizeMeasure measure) {
-  switch (measure) {
-    case SizeMeasure::torque_share:
-      return "the torque";
-    case SizeMeasure::length:
-      return "the range";
-    case SizeMeasure::length_per_s:
-      return "the range, per s";
-    case SizeMeasure::viscous_friction:
-      return "the viscous friction";
-    case SizeMeasure::coulomb_friction:
-      return "the Coulomb friction";
-    case SizeMeasure::mass:
-      return "the mass carried";
-    case SizeMeasure::torque:
-      return "the largest torque";
-    case SizeMeasure::impulse:
-      return "the impulse of a usual push";
-  }
-  return "";
+  static constexpr std::array kUsual{
+      "the torque",           "the range",        "the range, per s",   "the viscous friction",
+      "the Coulomb friction", "the mass carried", "the largest torque", "the impulse of a usual push"};
+  static_assert(kUsual.size() == static_cast<std::size_t>(SizeMeasure::impulse) + 1);
+  return kUsual[static_cast<std::size_t>(measure)];
 }
 
-const char* to_string(Spread spread) {
-  switch (spread) {
-    case Spread::uniform:
-      return "uniform";
-    case Spread::log_uniform:
-      return "log_uniform";
-  }
-  return "";
-}
+const char* to_string(Spread spread) { return spread == Spread::uniform ? "uniform" : "log_uniform"; }
 
 }  // namespace faultline

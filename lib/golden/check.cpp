@@ -11,7 +11,6 @@
 #include "lib/core/error.hpp"
 #include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
-#include "lib/core/paint.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

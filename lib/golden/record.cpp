@@ -12,7 +12,7 @@
 #include "lib/core/files/inner_file.hpp"
 #include "lib/core/files/plain_name.hpp"
 #include "lib/core/hash.hpp"
-#include "lib/core/utf8.hpp"
+#include "lib/core/text.hpp"
 #include "lib/golden/check.hpp"
 #include "lib/golden/tolerance.hpp"
 

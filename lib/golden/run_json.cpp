@@ -4,7 +4,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/json/json_fields.hpp"
 #include "lib/core/json_values.hpp"
-#include "lib/core/utf8.hpp"
+#include "lib/core/text.hpp"
 #include "lib/diagnose/fault_event_fields.hpp"
 #include "lib/fault/label_fields.hpp"
 #include "lib/golden/check.hpp"

@@ -5,7 +5,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
-#include "lib/core/utf8.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "lib/core/number_text.hpp"
-#include "lib/core/paint.hpp"
 #include "lib/core/text.hpp"
 #include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"

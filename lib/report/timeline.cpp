@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/core/number_text.hpp"
-#include "lib/core/paint.hpp"
+#include "lib/core/text.hpp"
 #include "lib/report/plot/line_plot.hpp"
 #include "lib/report/text.hpp"
 

@@ -14,7 +14,7 @@
 
 #include "lib/core/json/json_matrix.hpp"
 #include "lib/core/json_values.hpp"
-#include "lib/core/utf8.hpp"
+#include "lib/core/text.hpp"
 
 /// Structs as JSON, both ways from one description of their members, so that each key stands once. The
 /// description of a struct is a function in the namespace of the struct:

@@ -6,7 +6,7 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
-#include "lib/core/utf8.hpp"
+#include "lib/core/text.hpp"
 #include "lib/report/html/head.hpp"
 #include "lib/report/html/page_figures.hpp"
 
