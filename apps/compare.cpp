@@ -24,7 +24,7 @@ const std::vector<std::string> kAlignments{"auto", "time", "motion"};  // in the
 
 struct CompareArguments {
   std::string first, second, model, html, json;
-  CompareOptions options;
+  AlignmentKind align = AlignmentKind::automatic;
 };
 
 void claim_files(const CompareArguments& arguments) {
@@ -65,7 +65,7 @@ int run_compare(const CompareArguments& arguments) {
   if (!arguments.model.empty()) model = std::make_unique<Model>(load_model(arguments.model));
   const std::vector<char> turns = model ? turns_of(*model) : std::vector<char>{};
   const RunComparison comparison = compare_runs(read_run(arguments.first, model.get()),
-                                                read_run(arguments.second, model.get()), arguments.options);
+                                                read_run(arguments.second, model.get()), arguments.align);
   if (!arguments.json.empty()) write_file(arguments.json, to_json(comparison, turns));
   if (!arguments.html.empty()) write_file(arguments.html, render_comparison_html(comparison, turns));
   if (arguments.json != "-" && arguments.html != "-") print(to_text(comparison, turns));
@@ -86,7 +86,7 @@ void add_compare(CLI::App& app, Program& program) {
       ->type_name("MODEL");
   add_choice_option(
       *command, "--align", kAlignments,
-      [arguments](std::size_t place) { arguments->options.align = static_cast<AlignmentKind>(place); },
+      [arguments](std::size_t place) { arguments->align = static_cast<AlignmentKind>(place); },
       "time: each from its first row; motion: by the references, a constant shift or a warp; auto: motion "
       "if that is better")
       ->default_str(kAlignments.front());

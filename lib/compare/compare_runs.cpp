@@ -13,6 +13,9 @@
 namespace faultline {
 namespace {
 
+constexpr double kFalseAlarms = 1e-3;  // probability of a divergence of two runs that differ by noise alone
+// Successive samples beyond the threshold that make a divergence; one may be an outlier.
+constexpr int kInARow = 3;
 constexpr double kOtherPace = 0.02;  // largest relative difference of speed at which torques are judged
 constexpr double kErrors = 3.0;      // factor on the errors of interpolation and time
 constexpr double kRounding = 1e-9;   // of the largest value: rounding error of the arithmetic
@@ -41,9 +44,8 @@ double sigmas_for(double chance) { return std::sqrt(-2.0 * elementary::log(chanc
 /// Difference of one signal at the samples of the first run.
 class OneDifference {
  public:
-  OneDifference(const RunSignal& first, const RunSignal& second, const RunComparison& all,
-                const CompareOptions& options)
-      : first_(first), second_(second), all_(all), options_(options) {
+  OneDifference(const RunSignal& first, const RunSignal& second, const RunComparison& all)
+      : first_(first), second_(second), all_(all) {
     found_.quantity = first.quantity;
     found_.joint = first.joint;
     const double a = noise_of(first.values), b = noise_of(second.values);
@@ -88,7 +90,7 @@ class OneDifference {
     beyond_ += leaves;
     in_a_row_ = leaves ? in_a_row_ + 1 : 0;
     if (in_a_row_ == 1) since_ = t;
-    if (in_a_row_ == options_.in_a_row && std::isnan(found_.diverges_s)) found_.diverges_s = since_;
+    if (in_a_row_ == kInARow && std::isnan(found_.diverges_s)) found_.diverges_s = since_;
   }
 
   /// Returns the error from the uncertainty of the time and the slope of the signal.
@@ -103,7 +105,6 @@ class OneDifference {
 
   const RunSignal &first_, &second_;
   const RunComparison& all_;
-  const CompareOptions& options_;
   SignalDifference found_;
   double count_ = 0.0, squares_ = 0.0, beyond_ = 0.0, other_pace_ = 0.0, since_ = 0.0;
   int in_a_row_ = 0;
@@ -159,7 +160,7 @@ const SignalDifference* RunComparison::first_divergence() const {
   return earliest;
 }
 
-RunComparison compare_runs(RunSignals first, RunSignals second, const CompareOptions& options) {
+RunComparison compare_runs(RunSignals first, RunSignals second, AlignmentKind align) {
   refuse_unlike(first, second);
   if (first.by_reference != second.by_reference) {
     first = by_positions(std::move(first));
@@ -172,16 +173,16 @@ RunComparison compare_runs(RunSignals first, RunSignals second, const CompareOpt
   all.second_length_s = second.length_s;
   all.first_period_s = first.period_s;
   all.second_period_s = second.period_s;
-  all.alignment = align_runs(first, second, options.align);
+  all.alignment = align_runs(first, second, align);
   all.compared_s = overlap(first, second, all.alignment);
   if (!(all.compared_s > 0.0))
     throw Error(ErrorCode::input, second.name, "has no time in common with " + first.name);
   double samples = 0.0;
   for (const RunSignal& signal : first.signals) samples += static_cast<double>(signal.time.size());
-  all.sigmas = sigmas_for(options.false_alarms / samples);
+  all.sigmas = sigmas_for(kFalseAlarms / samples);
   for (const RunSignal& signal : first.signals)
     if (const RunSignal* other = second.find(signal.quantity, signal.joint))
-      all.signals.push_back(OneDifference(signal, *other, all, options).take());
+      all.signals.push_back(OneDifference(signal, *other, all).take());
   all.notes = notes_of(first, second, all);
   return all;
 }

@@ -10,13 +10,6 @@
 
 namespace faultline {
 
-struct CompareOptions {
-  AlignmentKind align = AlignmentKind::automatic;
-  double false_alarms = 1e-3;  ///< probability of a divergence of two runs that differ by noise alone
-  int in_a_row =
-      3;  ///< successive samples beyond the threshold that make a divergence; one may be an outlier
-};
-
 /// Difference of one signal between two runs: second minus first, at the samples of the first.
 struct SignalDifference {
   std::string quantity;  ///< as in RunSignal
@@ -51,6 +44,7 @@ struct RunComparison {
 };
 
 /// Throws Error(input) if the runs have different joints or do not overlap.
-RunComparison compare_runs(RunSignals first, RunSignals second, const CompareOptions& options = {});
+RunComparison compare_runs(RunSignals first, RunSignals second,
+                           AlignmentKind align = AlignmentKind::automatic);
 
 }  // namespace faultline

@@ -26,7 +26,8 @@ constexpr double kDetour = 1e-6;
 
 enum Step : std::uint8_t { both, only_first, only_second };
 
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
+/// Returns the sum of squared differences.
+double squared_distance(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
   return sum;
@@ -44,7 +45,7 @@ std::vector<Step> best_steps(const MotionSamples& first, const MotionSamples& se
       const double down = (i ? before[j] : inf) + kDetour, right = (j ? now[j - 1] : inf) + kDetour;
       const double least = std::min({straight, down, right});
       steps[i * columns + j] = least == straight ? both : least == down ? only_first : only_second;
-      now[j] = least + distance(first[i], second[j]);
+      now[j] = least + squared_distance(first[i], second[j]);
     }
     before.swap(now);
   }
@@ -58,14 +59,15 @@ MotionPair::MotionPair(const RunSignals& first, const RunSignals& second) : firs
     scale_.push_back(1.0 / std::max(spread(signal.values), kLeastSpread));
 }
 
-void MotionPair::Tally::add(double d) {
-  if (std::isnan(d)) return;
-  squares += std::min(d, 1.0);
-  agree += d <= kSameMotion * kSameMotion;
-  count += 1.0;
-}
-
-MotionPair::Fit MotionPair::Tally::fit() const {
+MotionPair::Fit MotionPair::fit(const std::function<double(double)>& times, double step) const {
+  double squares = 0.0, agree = 0.0, count = 0.0;
+  for (double t = 0.0; t <= first_.length_s; t += step) {
+    const double d = squared(first_at(t), second_at(times(t)));
+    if (std::isnan(d)) continue;
+    squares += std::min(d, 1.0);
+    agree += d <= kSameMotion * kSameMotion;
+    count += 1.0;
+  }
   if (count == 0.0) return {kNotKnown, 0.0};
   return {std::sqrt(squares / count), agree / count};
 }
@@ -83,9 +85,7 @@ double MotionPair::cost(double shift, double step) const {
 }
 
 double MotionPair::squared(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < a.size(); ++j) sum += (a[j] - b[j]) * (a[j] - b[j]);
-  return sum / static_cast<double>(a.size());
+  return squared_distance(a, b) / static_cast<double>(a.size());
 }
 
 double MotionPair::correction(double t, double at, double slow) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "lib/compare/run_signals.hpp"
@@ -28,13 +29,7 @@ class MotionPair {
     double left_rms = 0.0;  ///< distances beyond 1 count as 1; NaN without common time
     double agreeing = 0.0;  ///< share of the time in which the motions agree
   };
-  template <typename Times>
-  Fit fit(Times times, double step) const {
-    Tally tally;
-    for (double t = 0.0; t <= first_.length_s; t += step)
-      tally.add(squared(first_at(t), second_at(times(t))));
-    return tally.fit();
-  }
+  Fit fit(const std::function<double(double)>& times, double step) const;
 
   /// Returns the mean of squared distances, each bounded by kOutlier; infinite with too little overlap.
   double cost(double shift, double step) const;
@@ -48,12 +43,6 @@ class MotionPair {
   double coarse_step() const;
 
  private:
-  struct Tally {
-    double squares = 0.0, agree = 0.0, count = 0.0;
-    void add(double squared_distance);
-    Fit fit() const;
-  };
-
   static double squared(const std::vector<double>& a, const std::vector<double>& b);
   std::vector<double> at(const RunSignals& run, double t) const;
 

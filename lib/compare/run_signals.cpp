@@ -6,6 +6,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
+#include "lib/log/time_axis.hpp"
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {
@@ -109,9 +110,7 @@ RunSignals run_signals(const std::string& name, const Log& log, const ResidualGe
   run.start_s = log.time.front();
   const std::vector<double> time = from_start(log.time);
   run.length_s = time.back();
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
-  run.period_s = upper_median(steps);
+  run.period_s = median_step(time);
   add(run.signals, "position", log.q, time);
   add(run.signals, "velocity", log.dq, time);
   add(run.signals, "torque", log.tau, time);

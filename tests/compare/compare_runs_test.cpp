@@ -54,7 +54,7 @@ Log timed(double duration_s, double stretch, std::uint64_t seed, double fault_fr
 }
 
 RunComparison compared(const Log& a, const Log& b, AlignmentKind align = AlignmentKind::automatic) {
-  return compare_runs(run_signals("a.csv", a), run_signals("b.csv", b), {.align = align});
+  return compare_runs(run_signals("a.csv", a), run_signals("b.csv", b), align);
 }
 
 std::string told(const RunComparison& comparison) { return to_text(comparison, {0}); }
