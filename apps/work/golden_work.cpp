@@ -167,9 +167,7 @@ void carry_out(const AcceptPlan& plan, const AcceptArguments& arguments) {
     remove_orphaned_files(folder, plan.set);
     return;
   }
-  const NewModel model = arguments.has_new_model()
-                             ? NewModel{arguments.model, arguments.case_base(), &plan.subject}
-                             : NewModel{};
+  const NewModel model = arguments.has_new_model() ? NewModel{arguments.model, &plan.subject} : NewModel{};
   accept_golden(folder, plan.set, plan.run, plan.names, model, default_tolerances(plan.subject.model));
   remove_orphaned_files(folder, load_golden(folder));
 }

@@ -280,10 +280,7 @@ Comparison compare(const Observation& expected, const Observation& actual, const
     return comparison;
   }
   compare_rows(expected.rows, actual.rows, length_may_differ(tolerances), comparison);
-  const Comparison events = compare_events(expected.events, actual.events, tolerances);
-  comparison.differences.insert(comparison.differences.end(), events.differences.begin(),
-                                events.differences.end());
-  comparison.lines.insert(comparison.lines.end(), events.lines.begin(), events.lines.end());
+  compare_events(expected.events, actual.events, tolerances, comparison);
   compare_residuals(expected, actual, tolerances, comparison);
   compare_traces(expected.trace, actual.trace, tolerances, comparison);
   return comparison;
@@ -330,9 +327,8 @@ const Difference* first_divergence(const Comparison& comparison) {
   return first;
 }
 
-Comparison compare_events(const std::vector<ObservedEvent>& expected,
-                          const std::vector<ObservedEvent>& actual, const ToleranceChain& tolerances) {
-  Comparison comparison;
+void compare_events(const std::vector<ObservedEvent>& expected, const std::vector<ObservedEvent>& actual,
+                    const ToleranceChain& tolerances, Comparison& comparison) {
   std::vector<char> used(actual.size(), 0);
   for (const ObservedEvent& event : expected) {
     const int partner = nearest(event, actual, used);
@@ -351,7 +347,6 @@ Comparison compare_events(const std::vector<ObservedEvent>& expected,
     comparison.differences.push_back({"event", actual[i].onset_s, "", name_of(actual[i].label), kNoNumber});
     comparison.lines.push_back({"", line_of(actual[i]), true});
   }
-  return comparison;
 }
 
 }  // namespace faultline

@@ -58,7 +58,7 @@ const Difference* first_divergence(const Comparison& comparison);
 
 /// Pairs events of the same kind and joint, the nearest onsets first, and compares their times and
 /// confidence; what has no partner is missing or unexpected.
-Comparison compare_events(const std::vector<ObservedEvent>& expected,
-                          const std::vector<ObservedEvent>& actual, const ToleranceChain& tolerances);
+void compare_events(const std::vector<ObservedEvent>& expected, const std::vector<ObservedEvent>& actual,
+                    const ToleranceChain& tolerances, Comparison& comparison);
 
 }  // namespace faultline

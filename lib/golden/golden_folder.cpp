@@ -49,9 +49,7 @@ std::string short_hash(const std::string& sha256) { return sha256.substr(0, 8); 
 /// Throws Error(input) unless all that `set` names, and the journals that SQLite would read beside it, are
 /// regular files in the folder or missing: before anything of it is opened.
 void refuse_foreign_files(const std::string& folder, const GoldenSet& set) {
-  std::vector<std::string> paths = {set.model.path, set.cases.path};
-  for (const GoldenLog& log : set.logs) paths.insert(paths.end(), {log.log.path, log.trace.path});
-  for (const std::string& path : paths)
+  for (const std::string& path : set.files())
     for (const std::string& file : sqlite_files(path)) has_inner_file(folder, file);
 }
 
@@ -66,13 +64,12 @@ bool is_named_by_content(const fs::path& file) {
   return short_hash(hash) == parts[2];
 }
 
-std::string written_trace(const std::string& folder, GoldenLog& log) {
+void write_trace(const std::string& folder, GoldenLog& log) {
   const std::string text = trace_to_csv(log.expected.trace);
   log.trace.sha256 = sha256_hex(text);
   log.trace.path =
       fmt::format("traces/{}-{}.csv", fs::path(log.name()).stem().string(), short_hash(log.trace.sha256));
   if (!damage_of(folder, log.trace).empty()) write_inner_file(folder, log.trace.path, text);
-  return log.trace.path;
 }
 
 }  // namespace
@@ -117,23 +114,19 @@ std::vector<ReplayLog> replay_logs(const std::string& folder, const GoldenSet& s
 }
 
 void save_golden(const std::string& folder, GoldenSet& set, const std::vector<std::string>& outdated) {
-  std::set<std::string> named = {set.model.path, set.cases.path};
-  for (GoldenLog& log : set.logs) {
-    named.insert(log.log.path);
-    named.insert(log.damage.empty() ? written_trace(folder, log) : log.trace.path);
-  }
+  for (GoldenLog& log : set.logs)
+    if (log.damage.empty()) write_trace(folder, log);
   write_inner_file(folder, kGoldenToml, golden_text(set));
+  const std::vector<std::string> named = set.files();
   std::error_code error;
   for (const std::string& path : outdated)
-    if (!named.count(path) && has_inner_file(folder, path)) fs::remove(inside(folder, path), error);
+    if (!std::count(named.begin(), named.end(), path) && has_inner_file(folder, path))
+      fs::remove(inside(folder, path), error);
 }
 
 void remove_orphaned_files(const std::string& folder, const GoldenSet& set) {
-  std::set<fs::path> named = {inside(folder, set.model.path), inside(folder, set.cases.path)};
-  for (const GoldenLog& log : set.logs) {
-    named.insert(inside(folder, log.trace.path));
-    named.insert(inside(folder, log.log.path));
-  }
+  std::set<fs::path> named;
+  for (const std::string& path : set.files()) named.insert(inside(folder, path));
   for (const std::string& part : {folder, inside(folder, "traces")}) {
     std::error_code error;
     if (part != folder && !fs::is_directory(fs::symlink_status(part, error))) continue;

@@ -295,6 +295,12 @@ GoldenSet golden_from_text(const std::string& text, const std::string& where) {
   }
 }
 
+std::vector<std::string> GoldenSet::files() const {
+  std::vector<std::string> paths = {model.path, cases.path};
+  for (const GoldenLog& log : logs) paths.insert(paths.end(), {log.log.path, log.trace.path});
+  return paths;
+}
+
 std::string golden_text(const GoldenSet& set) {
   std::string text = head(set);
   if (set.identification) text += identification_text(*set.identification);

@@ -50,6 +50,8 @@ struct GoldenSet {
   std::optional<GoldenIdentification> identification;
   std::vector<GoldenLog> logs;
 
+  /// Paths in the folder of the model, the cases, the logs and their traces.
+  std::vector<std::string> files() const;
   ToleranceChain chain(const GoldenLog& log) const { return {&log.tolerances, &tolerances}; }
   ToleranceChain chain(const GoldenIdentification& identified) const {
     return {&identified.tolerances, &tolerances};

@@ -92,12 +92,6 @@ GoldenSet rehashed(const std::string& folder, GoldenSet set, const std::string& 
   return set;
 }
 
-std::vector<std::string> files_of(const GoldenSet& set) {
-  std::vector<std::string> files = {set.model.path, set.cases.path};
-  for (const GoldenLog& log : set.logs) files.push_back(log.trace.path);
-  return files;
-}
-
 }  // namespace
 
 Recorded record_golden(const std::string& folder, const std::vector<std::string>& paths,
@@ -133,7 +127,7 @@ void accept_golden(const std::string& folder, GoldenSet set, const GoldenRun& ru
                    const std::vector<std::string>& names, const NewModel& new_model,
                    const Tolerances& defaults) {
   for (const std::string& name : names) refuse_unusable(run, name);
-  const std::vector<std::string> before = files_of(set);
+  const std::vector<std::string> before = set.files();
   if (new_model.subject) {
     set = adopt_model(folder, new_model.model, *new_model.subject, std::move(set));
     set = with_actual(std::move(set), run, kModelItem);

@@ -29,8 +29,7 @@ Recorded record_golden(const std::string& folder, const std::vector<std::string>
 
 /// A model that is to become the folder's.
 struct NewModel {
-  std::string model;
-  std::string cases;
+  std::string model;  ///< path of its file
   const ModelAndCases* subject = nullptr;
 };
 

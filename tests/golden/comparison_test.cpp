@@ -168,7 +168,9 @@ ObservedEvent locked(double onset_s) {
 
 Comparison compared(const std::vector<ObservedEvent>& expected, const std::vector<ObservedEvent>& actual,
                     const Tolerances& allowed = {}) {
-  return compare_events(expected, actual, {&allowed});
+  Comparison comparison;
+  compare_events(expected, actual, {&allowed}, comparison);
+  return comparison;
 }
 
 TEST(CompareEvents, EventsOfOneLabelArePairedByTheNearestOnset) {
