@@ -58,16 +58,11 @@ EpisodeClassifier train_episode_classifier(std::span<const LabelledEpisode> epis
   const int inputs = static_cast<int>(patterns.inputs.rows()),
             outputs = static_cast<int>(classifier.labels.size());
   const PatternSplit split = split_patterns(patterns, options.validation_share, options.seed);
-  QuasiNewtonOptions training;
-  training.weight_decay = options.weight_decay;
   classifier.mlp =
       train_quasi_newton(make_mlp({inputs, options.hidden, outputs}, OutputKind::softmax, options.seed),
-                         split.training, split.validation, training)
-          .mlp;
-  RbfnOptions radial;
-  radial.map.rows = radial.map.columns = options.map_side;
-  radial.map.seed = options.seed;
-  classifier.rbfn = train_rbfn(patterns, radial).rbfn;
+                         split.training, split.validation, {.weight_decay = options.weight_decay});
+  classifier.rbfn =
+      train_rbfn(patterns, {.rows = options.map_side, .columns = options.map_side, .seed = options.seed});
   return classifier;
 }
 

@@ -125,20 +125,18 @@ SampleFeatures features_from(const std::string& name, const std::string& where) 
               "features: '" + name + "' is none of velocity, torque_space, hypotheses");
 }
 
-TrainedMlp train_mlp(const Patterns& training, const Patterns& validation,
-                     const SampleClassifierOptions& options, const Progress& progress) {
+Mlp train_mlp(const Patterns& training, const Patterns& validation, const SampleClassifierOptions& options,
+              const Progress& progress) {
   std::vector<int> sizes{static_cast<int>(training.inputs.rows())};
   sizes.insert(sizes.end(), options.hidden.begin(), options.hidden.end());
   sizes.push_back(static_cast<int>(training.targets.rows()));
   Mlp start = make_mlp(sizes, options.output, options.seed);
-  if (options.trainer == SampleTrainer::back_propagation) {
-    BackPropagationOptions trainer{.weight_decay = options.weight_decay, .seed = options.seed};
-    trainer.stop.max_iterations = options.max_iterations;
-    return train_back_propagation(std::move(start), training, validation, trainer, progress);
-  }
-  QuasiNewtonOptions trainer{.weight_decay = options.weight_decay};
-  trainer.stop.max_iterations = options.max_iterations;
-  return train_quasi_newton(std::move(start), training, validation, trainer, progress);
+  const auto train =
+      options.trainer == SampleTrainer::back_propagation ? train_back_propagation : train_quasi_newton;
+  return train(
+      std::move(start), training, validation,
+      {.max_iterations = options.max_iterations, .weight_decay = options.weight_decay, .seed = options.seed},
+      progress);
 }
 
 std::vector<FaultLabel> classes_from_json(const json& in, const std::string& where) {
@@ -175,13 +173,11 @@ SampleOutputs classify_samples(const SampleClassifier& classifier, const Residua
   return {residuals.time, forward(classifier.mlp, scaled), forward(classifier.rbfn, scaled)};
 }
 
-TrainedSampleClassifier train_sample_classifier(std::span<const LabelledResiduals> runs,
-                                                const ResidualGenerator& generator,
-                                                const SampleClassifierOptions& options,
-                                                const Progress& progress) {
+SampleClassifier train_sample_classifier(std::span<const LabelledResiduals> runs,
+                                         const ResidualGenerator& generator,
+                                         const SampleClassifierOptions& options, const Progress& progress) {
   const Samples samples = sort_samples(runs, options.validate_every);
-  TrainedSampleClassifier trained;
-  SampleClassifier& classifier = trained.classifier;
+  SampleClassifier classifier;
   classifier.features = options.features;
   classifier.classes = classes_of(samples);
   classifier.torque_rms = generator.healthy.torque_rms;
@@ -192,19 +188,14 @@ TrainedSampleClassifier train_sample_classifier(std::span<const LabelledResidual
       assemble(samples.training, features, classifier.classes, options.patterns_per_class, options.seed);
   Patterns validation = assemble(samples.validation, features, classifier.classes, options.patterns_per_class,
                                  options.seed + 1);
-  trained.patterns = training.count();
   classifier.prior = training.targets.rowwise().mean();
   classifier.scaler = standard_scaler(training.inputs);
   training.inputs = classifier.scaler.apply(training.inputs);
   validation.inputs = classifier.scaler.apply(validation.inputs);
 
-  TrainedMlp mlp = train_mlp(training, validation, options, progress);
-  classifier.mlp = std::move(mlp.mlp);
-  trained.mlp = std::move(mlp.summary);
-  TrainedRbfn rbfn = train_rbfn(training, options.rbfn);
-  classifier.rbfn = std::move(rbfn.rbfn);
-  trained.rbfn = rbfn.summary;
-  return trained;
+  classifier.mlp = train_mlp(training, validation, options, progress);
+  classifier.rbfn = train_rbfn(training, options.map);
+  return classifier;
 }
 
 void to_json(json& out, const SampleClassifier& classifier) {

@@ -72,27 +72,20 @@ struct SampleClassifierOptions {
   /// Softmax trained by cross-entropy gives probabilities; linear trained on 1 and 0 is the paper's.
   OutputKind output = OutputKind::softmax;
   SampleTrainer trainer = SampleTrainer::quasi_newton;  ///< of the MLP; back-propagation is the paper's
-  RbfnOptions rbfn = {.map = {.rows = 10, .columns = 10}};
-  int patterns_per_class = 400;  ///< drawn at random from all runs
-  int validate_every = 5;        ///< one in this number of each fault's runs validates; 0: all runs train
-  int max_iterations = 300;      ///< of the MLP's trainer; epochs for back-propagation
+  SomOptions map = {.rows = 10, .columns = 10};         ///< on which the centres of the RBFN lie
+  int patterns_per_class = 400;                         ///< drawn at random from all runs
+  int validate_every = 5;    ///< one in this number of each fault's runs validates; 0: all runs train
+  int max_iterations = 300;  ///< of the MLP's trainer; epochs for back-propagation
   double weight_decay = 1e-4;
   std::uint64_t seed = 1;
 };
 
-struct TrainedSampleClassifier {
-  SampleClassifier classifier;
-  TrainingSummary mlp;
-  RbfnSummary rbfn;
-  int patterns = 0;
-};
-
 /// Trains both networks on samples of labelled runs. Classes are the labels that occur, in the order of kind
 /// and joint, with `none` last. Throws Error(input) if there are no fault-free or no faulty samples.
-TrainedSampleClassifier train_sample_classifier(std::span<const LabelledResiduals> runs,
-                                                const ResidualGenerator& generator,
-                                                const SampleClassifierOptions& options = {},
-                                                const Progress& progress = {});
+SampleClassifier train_sample_classifier(std::span<const LabelledResiduals> runs,
+                                         const ResidualGenerator& generator,
+                                         const SampleClassifierOptions& options = {},
+                                         const Progress& progress = {});
 
 void to_json(nlohmann::json& json, const SampleClassifier& classifier);
 /// Throws Error(input) if something is missing or does not fit; `where` names the file.

@@ -78,7 +78,7 @@ SampleMode learn_sample_mode(const Model& model, std::vector<LabelledResiduals> 
   for (std::size_t i = 0; i < runs.size(); ++i)
     (i % 3 == 2 ? tuning : training).push_back(std::move(runs[i]));
   SampleMode mode;
-  mode.classifier = train_sample_classifier(training, model.residual).classifier;
+  mode.classifier = train_sample_classifier(training, model.residual);
   mode.consecutive = tuned(mode.consecutive, mode.classifier, tuning);
   mode.log_odds = tuned(mode.log_odds, mode.classifier, tuning);
   return mode;

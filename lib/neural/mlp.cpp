@@ -79,11 +79,6 @@ Mlp make_mlp(const std::vector<int>& sizes, OutputKind output, std::uint64_t see
 
 MatrixXd forward(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs) {
   MatrixXd outputs(mlp.outputs(), inputs.cols());
-  forward(mlp, inputs, outputs);
-  return outputs;
-}
-
-void forward(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs, Eigen::Ref<MatrixXd> outputs) {
   int widest = mlp.inputs();
   for (const MlpLayer& layer : mlp.layers) widest = std::max(widest, static_cast<int>(layer.bias.size()));
   std::vector<double> now(widest * kLanes), next(widest * kLanes);
@@ -103,6 +98,7 @@ void forward(const Mlp& mlp, const Eigen::Ref<const MatrixXd>& inputs, Eigen::Re
       for (int o = 0; o < mlp.outputs(); ++o) outputs(o, first + lane) = now[o * kLanes + lane];
     }
   }
+  return outputs;
 }
 
 VectorXd parameters_of(const Mlp& mlp) {

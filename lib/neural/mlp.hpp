@@ -43,9 +43,6 @@ Mlp make_mlp(const std::vector<int>& sizes, OutputKind output = OutputKind::line
 /// Outputs (outputs x samples) for inputs (inputs x samples). The result of a sample depends on its own
 /// inputs only, to the last bit, for any number of samples. NaN inputs give NaN outputs.
 Eigen::MatrixXd forward(const Mlp& mlp, const Eigen::Ref<const Eigen::MatrixXd>& inputs);
-/// Writes the outputs to storage of the caller, for streams.
-void forward(const Mlp& mlp, const Eigen::Ref<const Eigen::MatrixXd>& inputs,
-             Eigen::Ref<Eigen::MatrixXd> outputs);
 
 /// All weights (column by column) and then biases, layer after layer.
 Eigen::VectorXd parameters_of(const Mlp& mlp);

@@ -3,7 +3,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -15,6 +17,15 @@
 
 namespace faultline {
 namespace {
+
+// Fractions of the distance to a pattern that a node moves, first and last; they fall geometrically.
+constexpr double kInitialRate = 0.5, kFinalRate = 0.01;
+constexpr double kFinalRadius = 0.4;  // of the neighbourhood in grid steps; falls from half the longer side
+// Radii in multiples of sqrt(inputs) * spread, and ridge penalties on the output weights as shares of the
+// units' mean power. Generalised cross-validation selects one of each.
+constexpr std::array kWidths{0.5, 1.0, 2.0, 4.0};
+constexpr std::array kRidges{1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
+constexpr double kLeastRadius = 0.1;  // of a unit's spread, as a share of the input's standard deviation
 
 void check(const Eigen::Ref<const Eigen::MatrixXd>& inputs, const SomOptions& options) {
   if (options.rows < 1 || options.columns < 1 || options.epochs < 1)
@@ -75,36 +86,25 @@ VectorXd local_variance(const SelfOrganisingMap& map, const std::vector<int>& ne
   return sum / std::max(count, 1);
 }
 
-VectorXd global_variance(const SelfOrganisingMap& map, const std::vector<int>& nearest,
-                         const MatrixXd& inputs) {
-  VectorXd sum = VectorXd::Zero(inputs.rows());
-  for (Index n = 0; n < inputs.cols(); ++n) sum += (inputs.col(n) - map.nodes.col(nearest[n])).cwiseAbs2();
-  return sum / static_cast<double>(inputs.cols());
-}
-
-/// Returns the least spread of each input: a share of its standard deviation over all patterns, never zero.
-VectorXd spread_floor(const MatrixXd& inputs, double share) {
+/// Returns the least spread of each input, never zero.
+VectorXd spread_floor(const MatrixXd& inputs) {
   const VectorXd mean = inputs.rowwise().mean();
   const VectorXd deviation = (inputs.colwise() - mean).array().square().rowwise().mean().sqrt().matrix();
-  return (share * deviation).cwiseMax(1e-9).cwiseMax(1e-9 * mean.cwiseAbs());
+  return (kLeastRadius * deviation).cwiseMax(1e-9).cwiseMax(1e-9 * mean.cwiseAbs());
 }
 
-Units place_units(const MatrixXd& inputs, const RbfnOptions& options) {
-  const SelfOrganisingMap map = train_som(inputs, options.map);
+Units place_units(const MatrixXd& inputs, const SomOptions& options) {
+  const SelfOrganisingMap map = train_som(inputs, options);
   std::vector<int> nearest(inputs.cols());
   std::vector<char> used(map.count(), 0);
   for (Index n = 0; n < inputs.cols(); ++n) used[nearest[n] = nearest_node(map, inputs.col(n))] = 1;
   std::vector<int> kept;
   for (int node = 0; node < map.count(); ++node)
     if (used[node]) kept.push_back(node);
-  const VectorXd least = spread_floor(inputs, options.least_radius);
-  const VectorXd global = global_variance(map, nearest, inputs);
+  const VectorXd least = spread_floor(inputs);
   Units units{map.nodes(Eigen::all, kept), MatrixXd(inputs.rows(), kept.size())};
-  for (std::size_t u = 0; u < kept.size(); ++u) {
-    const VectorXd variance =
-        options.radius == RadiusKind::global ? global : local_variance(map, nearest, inputs, kept[u]);
-    units.spread.col(u) = variance.cwiseSqrt().cwiseMax(least);
-  }
+  for (std::size_t u = 0; u < kept.size(); ++u)
+    units.spread.col(u) = local_variance(map, nearest, inputs, kept[u]).cwiseSqrt().cwiseMax(least);
   return units;
 }
 
@@ -182,8 +182,7 @@ SelfOrganisingMap train_som(const Eigen::Ref<const Eigen::MatrixXd>& inputs, con
   for (int node = 0; node < map.count(); ++node)
     map.nodes.col(node) = inputs.col(random.below(inputs.cols()));
   const double longer_side = std::max(options.rows, options.columns);
-  const double radius_start = std::max(
-      options.initial_radius > 0.0 ? options.initial_radius : 0.5 * longer_side, options.final_radius);
+  const double radius_start = std::max(0.5 * longer_side, kFinalRadius);
   std::vector<int> order(inputs.cols());
   std::iota(order.begin(), order.end(), 0);
   const double shows = static_cast<double>(options.epochs) * static_cast<double>(order.size());
@@ -193,8 +192,8 @@ SelfOrganisingMap train_som(const Eigen::Ref<const Eigen::MatrixXd>& inputs, con
     for (int pattern : order) {
       const double share = shown++ / shows;
       pull_neighbours(map, inputs.col(pattern), nearest_node(map, inputs.col(pattern)),
-                      geometric(options.initial_rate, options.final_rate, share),
-                      geometric(radius_start, options.final_radius, share));
+                      geometric(kInitialRate, kFinalRate, share),
+                      geometric(radius_start, kFinalRadius, share));
     }
   }
   return map;
@@ -210,31 +209,24 @@ double mean_squared_error(const Rbfn& rbfn, const Patterns& patterns) {
          static_cast<double>(std::max<Index>(patterns.targets.size(), 1));
 }
 
-TrainedRbfn train_rbfn(const Patterns& patterns, const RbfnOptions& options) {
+Rbfn train_rbfn(const Patterns& patterns, const SomOptions& map) {
   check_patterns(patterns, -1, -1, "training patterns of the RBFN");
-  if (options.widths.empty() || options.ridges.empty())
-    throw Error(ErrorCode::usage, "RBFN", "widths and ridges need at least one value each");
-  const Units units = place_units(patterns.inputs, options);
-  TrainedRbfn best;
-  best.rbfn.centres = units.centres;
-  best.summary.units = static_cast<int>(units.centres.cols());
-  best.summary.generalised_error = std::numeric_limits<double>::infinity();
-  for (double width : options.widths) {
+  const Units units = place_units(patterns.inputs, map);
+  Rbfn best;
+  best.centres = units.centres;
+  double least_error = std::numeric_limits<double>::infinity();
+  for (const double width : kWidths) {
     const MatrixXd inverse_radii =
         (units.spread * (width * std::sqrt(static_cast<double>(patterns.inputs.rows())))).cwiseInverse();
     const RidgeFit fit(activations(units.centres, inverse_radii, patterns.inputs), patterns.targets);
-    for (double ridge : options.ridges) {
+    for (const double ridge : kRidges) {
       const double penalty = fit.penalty(ridge), error = fit.generalised_error(penalty);
-      if (!(error < best.summary.generalised_error) && best.rbfn.weights.size() > 0) continue;
-      best.summary.width = width;
-      best.summary.ridge = ridge;
-      best.summary.generalised_error = error;
-      best.summary.effective_weights = fit.effective_weights(penalty);
-      best.rbfn.inverse_radii = inverse_radii;
-      fit.weights(penalty, best.rbfn);
+      if (!(error < least_error) && best.weights.size() > 0) continue;
+      least_error = error;
+      best.inverse_radii = inverse_radii;
+      fit.weights(penalty, best);
     }
   }
-  best.summary.training_mse = mean_squared_error(best.rbfn, patterns);
   return best;
 }
 

@@ -3,10 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
 #include "lib/neural/patterns.hpp"
 
@@ -27,11 +25,7 @@ struct SelfOrganisingMap {
 struct SomOptions {
   int rows = 8;
   int columns = 8;
-  int epochs = 20;              ///< number of times that every pattern is shown
-  double initial_rate = 0.5;    ///< initial fraction of the distance to a pattern that a node moves
-  double final_rate = 0.01;     ///< final fraction; decreases geometrically
-  double initial_radius = 0.0;  ///< of the neighbourhood in grid steps; 0 = half the longer side
-  double final_radius = 0.4;
+  int epochs = 20;  ///< number of times that every pattern is shown
   std::uint64_t seed = 1;
 };
 
@@ -59,40 +53,10 @@ struct Rbfn {
 Eigen::MatrixXd forward(const Rbfn& rbfn, const Eigen::Ref<const Eigen::MatrixXd>& inputs);
 double mean_squared_error(const Rbfn& rbfn, const Patterns& patterns);
 
-enum class RadiusKind {
-  per_unit,  ///< from the spread of the patterns near each unit
-  global,    ///< one radius for each input: the rms distance of the patterns to their nearest unit
-};
-
-struct RbfnOptions {
-  SomOptions map = {};  ///< rows * columns units; units that are nearest to no pattern are left out
-  RadiusKind radius = RadiusKind::per_unit;
-  /// Radii in multiples of sqrt(inputs) * spread. Generalised cross-validation selects one.
-  std::vector<double> widths = {0.5, 1.0, 2.0, 4.0};
-  /// Ridge penalties on the output weights, as a share of the units' mean power; selected likewise.
-  std::vector<double> ridges = {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
-  /// Least spread of a unit, as a share of the input's standard deviation over all patterns.
-  double least_radius = 0.1;
-};
-
-struct RbfnSummary {
-  int units = 0;
-  double width = 0.0;  ///< selected
-  double ridge = 0.0;  ///< selected
-  double effective_weights =
-      0.0;  ///< trace of the hat matrix: effective number of weights under the ridge, with the bias
-  double generalised_error = std::numeric_limits<double>::quiet_NaN();  ///< expected mse, by cross-validation
-  double training_mse = std::numeric_limits<double>::quiet_NaN();
-};
-
-struct TrainedRbfn {
-  Rbfn rbfn;
-  RbfnSummary summary;
-};
-
 /// Places the centres by a self-organising map, then fits the output weights by ridge regression with penalty
-/// and width from generalised cross-validation (Golub, Heath and Wahba 1979). Inputs should be scaled.
-TrainedRbfn train_rbfn(const Patterns& patterns, const RbfnOptions& options = {});
+/// and width from generalised cross-validation (Golub, Heath and Wahba 1979). Nodes of `map` that are nearest
+/// to no pattern are left out. Inputs should be scaled.
+Rbfn train_rbfn(const Patterns& patterns, const SomOptions& map = {});
 
 void to_json(nlohmann::json& json, const Rbfn& rbfn);
 /// Throws Error(input) if shapes do not fit; `where` names the file.

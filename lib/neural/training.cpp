@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lib/neural/training.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -13,7 +11,6 @@
 #include <vector>
 
 #include "lib/neural/normal_equations.hpp"
-#include "lib/neural/training_monitor.hpp"
 
 namespace faultline {
 namespace {
@@ -21,6 +18,76 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+// A training has converged after so many falls in succession that are below this share of the loss.
+constexpr double kSmallFall = 1e-7;
+constexpr int kSmallFalls = 10;
+
+// Of back-propagation.
+constexpr double kLearningRate = 0.05;  // step along the gradient of the mean loss of a batch
+constexpr double kRateDecay = 0.997;    // factor on the learning rate after each epoch
+constexpr double kMomentum = 0.9;
+constexpr int kBatch = 16;  // patterns
+
+constexpr double kInitialDamping = 1e-3;  // share of the mean diagonal of the normal matrix
+constexpr int kStoredSteps = 12;          // of the quasi-Newton method
+
+/// Inputs of a watch; they must exist as long as the training.
+struct MonitoredTraining {
+  const Patterns& training;
+  const Patterns& validation;
+  const TrainingOptions& options;
+  const Progress& progress;
+  const char* what;  ///< name of the training in progress messages
+};
+
+/// Monitors a training: decides when it ends and keeps the weights with the least validation error.
+class TrainingMonitor {
+ public:
+  TrainingMonitor(const Mlp& start, const MonitoredTraining& watched) : watched_(watched), best_(start) {
+    check_patterns(watched.training, start.inputs(), start.outputs(), "training patterns");
+    if (!has_validation()) return;
+    check_patterns(watched.validation, start.inputs(), start.outputs(), "validation patterns");
+    best_validation_ = mean_squared_error(start, watched.validation);
+  }
+
+  /// Call after each iteration. Returns whether the training ends.
+  bool ends_after(const Mlp& mlp, double loss) {
+    ++iterations_;
+    if (watched_.progress)
+      watched_.progress(watched_.what, static_cast<double>(iterations_) / watched_.options.max_iterations);
+    if (has_validation()) {
+      const double error = mean_squared_error(mlp, watched_.validation);
+      if (error < best_validation_) {
+        best_validation_ = error;
+        best_ = mlp;
+        best_iteration_ = iterations_;
+      } else if (iterations_ - best_iteration_ >= watched_.options.patience) {
+        return true;
+      }
+    }
+    return stalled(loss) || iterations_ >= watched_.options.max_iterations;
+  }
+
+  /// Returns the best weights.
+  Mlp finish(Mlp last) { return has_validation() ? best_ : std::move(last); }
+
+ private:
+  bool has_validation() const { return watched_.validation.count() > 0; }
+
+  bool stalled(double loss) {
+    small_falls_ = last_loss_ - loss < kSmallFall * std::fabs(loss) ? small_falls_ + 1 : 0;
+    last_loss_ = loss;
+    return small_falls_ >= kSmallFalls;
+  }
+
+  MonitoredTraining watched_;
+  Mlp best_;
+  int iterations_ = 0, best_iteration_ = 0;
+  double best_validation_ = std::numeric_limits<double>::infinity();
+  double last_loss_ = std::numeric_limits<double>::infinity();
+  int small_falls_ = 0;
+};
 
 /// Damping between Gauss-Newton and gradient descent, adapted to the quadratic model's prediction of a step.
 struct Damping {
@@ -38,8 +105,6 @@ struct Damping {
     growth *= 2.0;
   }
 };
-
-using Eigen::VectorXd;
 
 struct Pair {
   VectorXd step;
@@ -100,89 +165,16 @@ bool search(Mlp& mlp, const Objective& objective, const Point& from, const Ray& 
 
 }  // namespace
 
-const char* to_string(TrainingStop stop) {
-  switch (stop) {
-    case TrainingStop::not_run:
-      return "not run";
-    case TrainingStop::target_reached:
-      return "target reached";
-    case TrainingStop::converged:
-      return "converged";
-    case TrainingStop::validation_rose:
-      return "no better on validation patterns";
-    case TrainingStop::iteration_limit:
-      return "iteration limit";
-    case TrainingStop::no_descent:
-      return "no step lowers the loss";
-  }
-  return "not run";
-}
-
-std::string TrainingSummary::text() const {
-  return fmt::format("{} after {} iterations, training mse {:.3g} -> {:.3g}, validation mse {:.3g}",
-                     to_string(stop), iterations, initial_mse, training_mse, validation_mse);
-}
-
-TrainingMonitor::TrainingMonitor(const Mlp& start, const MonitoredTraining& watched)
-    : watched_(watched), best_(start) {
-  const Patterns& training = watched.training;
-  const Patterns& validation = watched.validation;
-  check_patterns(training, start.inputs(), start.outputs(), "training patterns");
-  if (has_validation()) check_patterns(validation, start.inputs(), start.outputs(), "validation patterns");
-  summary_.initial_mse = mean_squared_error(start, training);
-  if (has_validation()) best_validation_ = mean_squared_error(start, validation);
-}
-
-bool TrainingMonitor::stalled(double loss) {
-  small_falls_ =
-      last_loss_ - loss < watched_.stop.relative_tolerance * std::fabs(loss) ? small_falls_ + 1 : 0;
-  last_loss_ = loss;
-  return small_falls_ >= 10;
-}
-
-std::optional<TrainingStop> TrainingMonitor::after_iteration(const Mlp& mlp, double loss) {
-  const int done = ++summary_.iterations;
-  summary_.loss.push_back(loss);
-  if (watched_.progress)
-    watched_.progress(watched_.what, static_cast<double>(done) / watched_.stop.max_iterations);
-  if (has_validation()) {
-    const double error = mean_squared_error(mlp, watched_.validation);
-    if (error < best_validation_) {
-      best_validation_ = error;
-      best_ = mlp;
-      summary_.best_iteration = done;
-    } else if (done - summary_.best_iteration >= watched_.stop.patience) {
-      return TrainingStop::validation_rose;
-    }
-  }
-  if (watched_.stop.target_mse > 0.0 &&
-      mean_squared_error(mlp, watched_.training) <= watched_.stop.target_mse)
-    return TrainingStop::target_reached;
-  if (stalled(loss)) return TrainingStop::converged;
-  if (done >= watched_.stop.max_iterations) return TrainingStop::iteration_limit;
-  return std::nullopt;
-}
-
-TrainedMlp TrainingMonitor::finish(Mlp last, TrainingStop stop) {
-  TrainedMlp trained{has_validation() ? best_ : std::move(last), summary_};
-  trained.summary.stop = stop;
-  if (!has_validation()) trained.summary.best_iteration = summary_.iterations;
-  trained.summary.training_mse = mean_squared_error(trained.mlp, watched_.training);
-  trained.summary.validation_mse = has_validation() ? mean_squared_error(trained.mlp, watched_.validation)
-                                                    : std::numeric_limits<double>::quiet_NaN();
-  return trained;
-}
-
-TrainedMlp train_back_propagation(Mlp start, const Patterns& training, const Patterns& validation,
-                                  const BackPropagationOptions& options, const Progress& progress) {
-  TrainingMonitor watch(start, {training, validation, options.stop, progress, "back-propagation"});
+Mlp train_back_propagation(Mlp start, const Patterns& training, const Patterns& validation,
+                           const TrainingOptions& options, const Progress& progress) {
+  TrainingMonitor watch(start, {training, validation, options, progress, "back-propagation"});
   Mlp mlp = std::move(start);
   Eigen::VectorXd weights = parameters_of(mlp), step = Eigen::VectorXd::Zero(weights.size());
   std::vector<int> order(training.count());
   std::iota(order.begin(), order.end(), 0);
   Random random(options.seed);
-  const int batch = std::clamp(options.batch, 1, training.count());
-  double rate = options.learning_rate;
+  const int batch = std::clamp(kBatch, 1, training.count());
+  double rate = kLearningRate;
   for (;;) {
     shuffle(order, random);
     double loss = 0.0;
@@ -191,21 +183,19 @@ TrainedMlp train_back_propagation(Mlp start, const Patterns& training, const Pat
       const std::vector<int> chosen(order.begin() + first, order.begin() + first + size);
       const LossGradient now = loss_gradient(mlp, training.inputs(Eigen::all, chosen),
                                              training.targets(Eigen::all, chosen), options.weight_decay);
-      step = options.momentum * step - rate * now.gradient;
+      step = kMomentum * step - rate * now.gradient;
       weights += step;
       set_parameters(mlp, weights);
       loss += now.loss * size;
     }
-    rate *= options.rate_decay;
-    if (const auto stop = watch.after_iteration(mlp, loss / training.count()))
-      return watch.finish(std::move(mlp), *stop);
+    rate *= kRateDecay;
+    if (watch.ends_after(mlp, loss / training.count())) return watch.finish(std::move(mlp));
   }
 }
 
-TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const Patterns& validation,
-                                     const LevenbergMarquardtOptions& options, const Progress& progress) {
-  TrainingMonitor watch(start,
-                        {training, validation, options.stop, progress, "Levenberg-Marquardt training"});
+Mlp train_levenberg_marquardt(Mlp start, const Patterns& training, const Patterns& validation,
+                              const TrainingOptions& options, const Progress& progress) {
+  TrainingMonitor watch(start, {training, validation, options, progress, "Levenberg-Marquardt training"});
   Mlp mlp = std::move(start);
   const bool projected = has_projected_outputs(mlp);
   if (projected) mlp.layers.back() = fitted_outputs(mlp, training, options.weight_decay);
@@ -214,12 +204,12 @@ TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const 
   Damping damping;
   for (;;) {
     const GaussNewtonSystem system(mlp, training.inputs, options.weight_decay);
-    if (damping.value == 0.0) damping.value = options.initial_damping * system.mean_diagonal();
-    if (now.gradient.norm() < 1e-13) return watch.finish(std::move(mlp), TrainingStop::converged);
+    if (damping.value == 0.0) damping.value = kInitialDamping * system.mean_diagonal();
+    if (now.gradient.norm() < 1e-13) return watch.finish(std::move(mlp));
     for (int tries = 0;; ++tries) {
       if (tries == 30) {
         set_parameters(mlp, weights);
-        return watch.finish(std::move(mlp), TrainingStop::no_descent);
+        return watch.finish(std::move(mlp));
       }
       const std::optional<VectorXd> step = system.step(now.gradient, damping.value);
       if (!step) {
@@ -238,19 +228,19 @@ TrainedMlp train_levenberg_marquardt(Mlp start, const Patterns& training, const 
       }
       damping.reject();
     }
-    if (const auto stop = watch.after_iteration(mlp, now.loss)) return watch.finish(std::move(mlp), *stop);
+    if (watch.ends_after(mlp, now.loss)) return watch.finish(std::move(mlp));
   }
 }
 
-TrainedMlp train_quasi_newton(Mlp start, const Patterns& training, const Patterns& validation,
-                              const QuasiNewtonOptions& options, const Progress& progress) {
-  TrainingMonitor watch(start, {training, validation, options.stop, progress, "quasi-Newton training"});
+Mlp train_quasi_newton(Mlp start, const Patterns& training, const Patterns& validation,
+                       const TrainingOptions& options, const Progress& progress) {
+  TrainingMonitor watch(start, {training, validation, options, progress, "quasi-Newton training"});
   Mlp mlp = std::move(start);
   const Objective objective{training, options.weight_decay};
   Point now{parameters_of(mlp), objective.at(mlp)}, next;
   std::deque<Pair> memory;
   for (;;) {
-    if (now.cost.gradient.norm() < 1e-12) return watch.finish(std::move(mlp), TrainingStop::converged);
+    if (now.cost.gradient.norm() < 1e-12) return watch.finish(std::move(mlp));
     Ray ray{direction(memory, now.cost.gradient)};
     if (ray.along.dot(now.cost.gradient) >= 0.0) {
       memory.clear();
@@ -258,17 +248,16 @@ TrainedMlp train_quasi_newton(Mlp start, const Patterns& training, const Pattern
     }
     if (memory.empty()) ray.length = std::min(1.0, 1.0 / now.cost.gradient.norm());
     if (!search(mlp, objective, now, ray, next)) {
-      if (memory.empty()) return watch.finish(std::move(mlp), TrainingStop::no_descent);
+      if (memory.empty()) return watch.finish(std::move(mlp));
       memory.clear();
       continue;
     }
     Pair pair{next.weights - now.weights, next.cost.gradient - now.cost.gradient};
     if (pair.step.dot(pair.change) > 1e-12 * pair.step.norm() * pair.change.norm())
       memory.push_back(std::move(pair));
-    if (static_cast<int>(memory.size()) > options.memory) memory.pop_front();
+    if (static_cast<int>(memory.size()) > kStoredSteps) memory.pop_front();
     std::swap(now, next);
-    if (const auto stop = watch.after_iteration(mlp, now.cost.loss))
-      return watch.finish(std::move(mlp), *stop);
+    if (watch.ends_after(mlp, now.cost.loss)) return watch.finish(std::move(mlp));
   }
 }
 

@@ -40,20 +40,19 @@ Patterns scaled_patterns(const ResidualGenerator& generator, const Transitions& 
           generator.outputs.apply(network_targets(generator, transitions))};
 }
 
-TrainedMlp train_network(const Patterns& training, const Patterns& validation, const ResidualOptions& options,
-                         const Progress& progress) {
+Mlp train_network(const Patterns& training, const Patterns& validation, const ResidualOptions& options,
+                  const Progress& progress) {
   std::vector<int> sizes{static_cast<int>(training.inputs.rows())};
   sizes.insert(sizes.end(), options.hidden.begin(), options.hidden.end());
   sizes.push_back(static_cast<int>(training.targets.rows()));
   Mlp start = make_mlp(sizes, OutputKind::linear, options.seed);
+  TrainingOptions trainer{.weight_decay = options.weight_decay, .seed = options.seed};
   if (options.trainer == ResidualTrainer::back_propagation) {
-    BackPropagationOptions trainer{.weight_decay = options.weight_decay, .seed = options.seed};
-    trainer.stop.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1500;
-    trainer.stop.patience = trainer.stop.max_iterations;
+    trainer.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1500;
+    trainer.patience = trainer.max_iterations;
     return train_back_propagation(std::move(start), training, validation, trainer, progress);
   }
-  LevenbergMarquardtOptions trainer{.weight_decay = options.weight_decay};
-  trainer.stop.max_iterations = options.max_iterations > 0 ? options.max_iterations : 25;
+  trainer.max_iterations = options.max_iterations > 0 ? options.max_iterations : 25;
   return train_levenberg_marquardt(std::move(start), training, validation, trainer, progress);
 }
 
@@ -204,22 +203,16 @@ void check_amount(const Pools& pools) {
 
 }  // namespace
 
-LearnedResidual fit_residual_generator(ResidualGenerator untrained, const Transitions& training,
-                                       const Transitions& validation, const ResidualOptions& options,
-                                       const Progress& progress) {
-  LearnedResidual out;
-  out.generator = std::move(untrained);
-  out.training_patterns = training.count();
-  ResidualGenerator& generator = out.generator;
-  if (generator.kind == ResidualKind::physics) return out;
+ResidualGenerator fit_residual_generator(ResidualGenerator generator, const Transitions& training,
+                                         const Transitions& validation, const ResidualOptions& options,
+                                         const Progress& progress) {
+  if (generator.kind == ResidualKind::physics) return generator;
   generator.inputs = range_scaler(network_inputs(generator, training));
   generator.outputs = range_scaler(network_targets(generator, training));
   Patterns held_back;
   if (validation.count() > 0) held_back = scaled_patterns(generator, validation);
-  TrainedMlp trained = train_network(scaled_patterns(generator, training), held_back, options, progress);
-  generator.mlp = std::move(trained.mlp);
-  out.training = std::move(trained.summary);
-  return out;
+  generator.mlp = train_network(scaled_patterns(generator, training), held_back, options, progress);
+  return generator;
 }
 
 HealthyResiduals healthy_residuals(ResidualGenerator generator, const Transitions& check) {
@@ -254,8 +247,11 @@ LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const
     training =
         joined(training, twin_transitions(training, shape, identified.chain,
                                           static_cast<int>(options.twin_share * options.max_patterns)));
-  LearnedResidual learned = fit_residual_generator(untrained(identified, survey, shape, options), training,
-                                                   pools.validation.drawn(), options, progress);
+  LearnedResidual learned;
+  learned.training_patterns = training.count();
+  const Transitions validation = pools.validation.drawn();
+  learned.generator = fit_residual_generator(untrained(identified, survey, shape, options), training,
+                                             validation, options, progress);
   learned.generator.healthy = healthy_residuals(learned.generator, check);
   measure_errors(check, learned);
   return learned;

@@ -33,27 +33,26 @@ struct ResidualOptions {
   std::uint64_t seed = 1;
 };
 
-/// A generator with its network, and how the training went.
-struct LearnedResidual {
-  ResidualGenerator generator;
-  TrainingSummary training;  ///< not run for kind physics
-  int training_patterns = 0;
-  /// Mean squared error over q and dq after a step, each in units of half its range, on patterns that were
-  /// not trained on: of the generator, and of the prediction that nothing changes. 0 if not measured.
-  double normalised_mse = 0.0;
-  double persistence_mse = 0.0;
-};
-
-/// Trains the network of `untrained`, whose kind, target, shape and chain are set, on these transitions of
-/// healthy motion, all of them finite; scalers take the range of `training`. `validation` may be empty. Kind
-/// physics has nothing to train. The errors are not measured.
-LearnedResidual fit_residual_generator(ResidualGenerator untrained, const Transitions& training,
-                                       const Transitions& validation, const ResidualOptions& options,
-                                       const Progress& progress = {});
+/// Returns the generator, whose kind, target, shape and chain are set, with its network trained on these
+/// transitions of healthy motion, all of them finite; scalers take the range of `training`. `validation` may
+/// be empty. Kind physics has nothing to train.
+ResidualGenerator fit_residual_generator(ResidualGenerator generator, const Transitions& training,
+                                         const Transitions& validation, const ResidualOptions& options,
+                                         const Progress& progress = {});
 
 /// Returns the residuals of the generator on transitions of healthy motion that were not trained on. Its own
 /// `healthy` may be empty.
 HealthyResiduals healthy_residuals(ResidualGenerator generator, const Transitions& check);
+
+/// A trained generator, and how well it predicts healthy motion.
+struct LearnedResidual {
+  ResidualGenerator generator;
+  int training_patterns = 0;
+  /// Mean squared error over q and dq after a step, each in units of half its range, on patterns that were
+  /// not trained on: of the generator, and of the prediction that nothing changes.
+  double normalised_mse = 0.0;
+  double persistence_mse = 0.0;
+};
 
 /// Learns the fault-free motion of a robot from its healthy logs, streaming them twice (they are rewound
 /// first). Logs are cut into blocks of up to 3 s, so that whole moves stay together; of each ten blocks seven

@@ -36,23 +36,18 @@ TEST(Rbfn, UnitsAreCauchyWithDiagonalRadii) {
 }
 
 TEST(Rbfn, LearnsASurfaceToItsNoise) {
-  for (RadiusKind radius : {RadiusKind::per_unit, RadiusKind::global}) {
-    const auto trained = train_rbfn(bumps(600, 1), {.map = {.rows = 8, .columns = 8}, .radius = radius});
-    const double error = mean_squared_error(trained.rbfn, bumps(500, 2));
-    EXPECT_LT(error, 2.0 * 0.05 * 0.05);
-    EXPECT_NEAR(trained.summary.generalised_error, error, 0.5 * error);
-    EXPECT_LE(trained.summary.effective_weights, trained.summary.units + 1.0);
-  }
+  const Rbfn trained = train_rbfn(bumps(600, 1), {.rows = 8, .columns = 8});
+  EXPECT_LT(mean_squared_error(trained, bumps(500, 2)), 2.0 * 0.05 * 0.05);
 }
 
 TEST(Rbfn, ASampleDoesNotDependOnTheOthers) {
-  const Rbfn rbfn = train_rbfn(bumps(200, 1)).rbfn;
+  const Rbfn rbfn = train_rbfn(bumps(200, 1));
   const MatrixXd inputs = bumps(37, 5).inputs, together = forward(rbfn, inputs);
   for (int n = 0; n < inputs.cols(); ++n) EXPECT_EQ(forward(rbfn, inputs.col(n))(0, 0), together(0, n));
 }
 
 TEST(Rbfn, JsonKeepsEveryBitAndChecksShapes) {
-  const Rbfn rbfn = train_rbfn(bumps(200, 1), {.map = {.rows = 3, .columns = 4}}).rbfn;
+  const Rbfn rbfn = train_rbfn(bumps(200, 1), {.rows = 3, .columns = 4});
   nlohmann::json json;
   to_json(json, rbfn);
   const Rbfn back = rbfn_from_json(nlohmann::json::parse(json.dump()), "test");

@@ -13,7 +13,7 @@ namespace {
 
 SampleClassifierOptions classifier_options(SampleFeatures features, double weight_decay, int iterations) {
   SampleClassifierOptions options{.features = features};
-  options.rbfn.map = {.rows = 12, .columns = 12};
+  options.map = {.rows = 12, .columns = 12};
   options.patterns_per_class = std::numeric_limits<int>::max();
   options.validate_every = 0;
   options.max_iterations = iterations;
@@ -41,8 +41,8 @@ ClassifierRecipe with_many(ClassifierRecipe recipe, int trajectories) {
   recipe.classifier.weight_decay = 1e-5;
   recipe.classifier.hidden = {30};
   recipe.classifier.max_iterations = recipe.classifier.max_iterations * 5 / 8;
-  recipe.classifier.rbfn.map.rows = recipe.classifier.rbfn.map.columns = 14;
-  recipe.classifier.rbfn.map.epochs = 5;
+  recipe.classifier.map.rows = recipe.classifier.map.columns = 14;
+  recipe.classifier.map.epochs = 5;
   return recipe;
 }
 
@@ -154,8 +154,8 @@ ClassifierErrors ClassifierBench::measure(const ClassifierRecipe& recipe) const 
   const ResidualGenerator generator = this->generator(recipe);
   const auto training = labelled(generator, training_patterns(recipe));
   SampleClassifierOptions options = recipe.classifier;
-  options.seed = options.rbfn.map.seed = seed_of(experiment_.seed, SeedUse::classifier_training, ~0ull);
-  const SampleClassifier classifier = train_sample_classifier(training, generator, options).classifier;
+  options.seed = options.map.seed = seed_of(experiment_.seed, SeedUse::classifier_training, ~0ull);
+  const SampleClassifier classifier = train_sample_classifier(training, generator, options);
   ClassifierErrors result;
   const auto trained = errors(classifier, training);
   result.mlp.training = trained[0];

@@ -62,10 +62,9 @@ ResidualGenerator train_generator(const Experiment& experiment, const GeneratorR
   logs.resize(training_count);
   ResidualOptions fit = recipe.fit;
   fit.seed = seed_of(experiment.seed, SeedUse::generator_training, ~0ull);
-  ResidualGenerator generator =
-      fit_residual_generator(std::move(untrained), transitions_of(logs, phi), {}, fit).generator;
-  generator.healthy = healthy_residuals(generator, check);
-  return generator;
+  ResidualGenerator fitted = fit_residual_generator(std::move(untrained), transitions_of(logs, phi), {}, fit);
+  fitted.healthy = healthy_residuals(fitted, check);
+  return fitted;
 }
 
 Eigen::VectorXd normalised_mse_by_output(const Eigen::MatrixXd& error, const HalfRanges& ranges) {

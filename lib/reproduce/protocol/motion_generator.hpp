@@ -34,7 +34,7 @@ std::vector<Log> healthy_runs(const Experiment& experiment, int trajectories, do
 /// The generator of a recipe before its network is trained; that of kind physics is complete.
 ResidualGenerator untrained_generator(const Robot& robot, const GeneratorRecipe& recipe);
 
-/// Its healthy residuals are measured on a fifth as many trajectories again.
+/// Returns the trained generator, its healthy residuals measured on a fifth as many trajectories again.
 ResidualGenerator train_generator(const Experiment& experiment, const GeneratorRecipe& recipe);
 
 /// Mean squared error of each output (q1..qn, dq1..dqn), in squares of half ranges (the paper's measure is

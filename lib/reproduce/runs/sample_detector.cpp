@@ -38,7 +38,7 @@ SampleDetector train_paper_detector(const ResidualGenerator& generator, const Ex
   options.patterns_per_class = kAllPatterns;
   options.max_iterations = kIterations;
   options.seed = experiment.seed;
-  return {generator, train_sample_classifier(runs, generator, options).classifier};
+  return {generator, train_sample_classifier(runs, generator, options)};
 }
 
 SampleDetector train_best_detector(const ResidualGenerator& generator, std::span<const ExperimentRun> runs,
@@ -50,7 +50,7 @@ SampleDetector train_best_detector(const ResidualGenerator& generator, std::span
   options.patterns_per_class = patterns_per_class;
   options.max_iterations = kIterations;
   options.seed = seed;
-  return {generator, train_sample_classifier(residuals, generator, options).classifier};
+  return {generator, train_sample_classifier(residuals, generator, options)};
 }
 
 SampleOutputs outputs_of(const SampleDetector& detector, const Log& log) {
