@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "lib/balance/smoothing.hpp"
@@ -20,8 +21,11 @@ constexpr double kHighRate_s = 0.005, kKernelAtHighRate_s = 0.012, kKernel_s = 0
 constexpr double kFriction_s = 0.006;  // kernel of the velocity that friction depends on, of such logs
 constexpr double kWidest = 4.0;        // times that kernel: a wider one would hide short faults
 constexpr double kWider = 1.1892;      // ratio of two kernels that are tried: four of them double it
-constexpr double kNoiseOfMotion =
-    0.03;  // noise of an acceleration, as a share of it: its inertia is .1 % low
+// Noise of an acceleration as a share of it. Up to the first, the narrowest kernel finds and names most
+// faults. Beyond it, the estimated inertia is too small, the whitening filter takes the inertia that is left
+// for noise and amplifies that of the encoder, and the fit collapses; a wider kernel then has to reach the
+// second.
+constexpr double kMostNoise = 0.25, kReducedNoise = 0.05;
 constexpr double kSamplesOfKernel = 6.0;  // in a kernel's standard deviation: it cannot resolve finer ones
 constexpr double kSlackOfRate = 0.1;      // samples: a period is known to some per cent
 
@@ -55,18 +59,21 @@ double mean_square_acceleration(const NoisySignal& signal, double period_s, doub
   return sum / std::max(rows, 1.0);
 }
 
-/// Returns the shortest kernel that suits the signal: `shortest_s` if the joint hardly moves.
+/// Returns the noise of the acceleration as a share of the acceleration; infinity if the joint hardly moves.
+double noise_share(const NoisySignal& signal, double period_s, double kernel_s) {
+  const double noise = acceleration_noise(signal, period_s, kernel_s);
+  const double motion = mean_square_acceleration(signal, period_s, kernel_s) - noise;
+  return motion > 0.0 ? std::sqrt(noise / motion) : std::numeric_limits<double>::infinity();
+}
+
+/// Returns the kernel that suits the signal: `shortest_s` if it has little noise or the joint hardly moves.
 double kernel_for(const NoisySignal& signal, double period_s, double shortest_s) {
   const double widest_s = kWidest * shortest_s;
-  for (double kernel_s = shortest_s; kernel_s < widest_s; kernel_s *= kWider) {
-    const double noise = acceleration_noise(signal, period_s, kernel_s);
-    if (noise == 0.0) return kernel_s;
-    const double motion = mean_square_acceleration(signal, period_s, kernel_s) - noise;
-    if (noise < kNoiseOfMotion * kNoiseOfMotion * motion) return kernel_s;
-  }
-  const bool moves = mean_square_acceleration(signal, period_s, widest_s) >
-                     2.0 * acceleration_noise(signal, period_s, widest_s);
-  return moves ? widest_s : shortest_s;
+  const bool moves = noise_share(signal, period_s, widest_s) < 1.0;
+  if (!moves || noise_share(signal, period_s, shortest_s) <= kMostNoise) return shortest_s;
+  double kernel_s = shortest_s;
+  while (kernel_s < widest_s && noise_share(signal, period_s, kernel_s) > kReducedNoise) kernel_s *= kWider;
+  return std::min(kernel_s, widest_s);
 }
 
 NoisySignal signal_of(const std::vector<UniformLog>& logs, int joint, bool velocity) {

@@ -14,10 +14,10 @@ struct RowScale {
   int averaged = 1;         ///< recorded samples that become one: the kernel does not distinguish finer ones
 };
 
-/// Returns the scales that suit the rate and the noise of the logs: the shortest kernel with which the noise
-/// of each joint's acceleration is small beside the acceleration itself. With a shorter one, the noise of a
-/// coarse encoder would act as an error of the regressors and make the estimated inertias too small. `logs`
-/// have the samples as recorded; `derived` is true for a joint whose velocity was computed from its position.
+/// Returns the scales that suit the rate and the noise of the logs. The kernel is the shortest of the rate,
+/// or a wider one if the noise of a joint's acceleration, as that of a coarse encoder, would spoil the
+/// estimated inertias. `logs` have the samples as recorded; `derived` is true for a joint whose velocity was
+/// computed from its position.
 RowScale row_scale(const std::vector<UniformLog>& logs, const std::vector<bool>& derived);
 
 }  // namespace faultline
