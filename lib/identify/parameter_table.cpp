@@ -49,9 +49,8 @@ std::string why_offset(const Identification& id, int p) {
 std::string why_width(const Identification& id, int p) {
   const std::string reason =
       id.method == IdentifyMethod::weak_form ? "the momentum balance hardly depends on it"
-      : !has_fast_log(id)
-          ? fmt::format("no log has a sample period below {:g} s", kShowsFriction_s)
-          : "the logs do not determine this joint's Coulomb friction, or the options exclude it from the fit";
+      : !has_fast_log(id) ? fmt::format("no log has a sample period below {:g} s", kShowsFriction_s)
+                          : "the logs do not determine this joint's Coulomb friction";
   return fmt::format("left at {:g}: {}", elementary::exp(id.estimate[p]), reason);
 }
 

@@ -103,7 +103,18 @@ def filtered(robot, day, rng):
     }
 
 
-CELLS = {"springs": springs, "pieces": pieces, "sticky": sticky, "wobbly": wobbly, "filtered": filtered}
+def counts(robot, day, rng):
+    """Encoders of 2000 counts a turn of the joint, velocity by difference of them."""
+    step = 2 * math.pi / 2000
+    return {
+        "sample_period_s": 0.002, "control_period_s": 0.002,
+        "noise": {"q": [1e-5, 1e-5, 2e-6], "q_resolution": [step, step, 1e-4]},
+        "recording": {"velocity": '"difference"'},
+    }
+
+
+CELLS = {"springs": springs, "pieces": pieces, "sticky": sticky, "wobbly": wobbly, "filtered": filtered,
+         "counts": counts}
 
 # kind: sizes by joint in shares of the rating (bias, drift: rad, m; payload: kg of the last link), more keys
 FAULTS = {

@@ -4,7 +4,7 @@
 # and sticks, work pieces, coarse encoders, velocities by difference or filtered, stamps that wobble, torques logged late.
 # A model is learned from six healthy days of each, knowing l1 alone; six more days and 25 with faults are diagnosed.
 # Takes some four minutes a cell on two cores.
-# Usage: bash tests/bench/own_cells.sh [CELL...]    springs, pieces, sticky, wobbly, filtered; SEED=N draws other robots
+# Usage: bash tests/bench/own_cells.sh [CELL...]    springs, pieces, sticky, wobbly, filtered, counts; SEED=N draws other robots
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source tests/bench/need_program.sh

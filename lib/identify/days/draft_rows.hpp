@@ -11,10 +11,10 @@ namespace faultline {
 /// Prior standard deviation of the delay of one joint's torque beyond the lag of all torques, samples.
 inline constexpr double kDelayStd = 0.3;
 
-/// Sets range, torque rms and repeated positions of the model, a BalanceModel or OneStepModel, from the
+/// Returns the model, a BalanceModel or OneStepModel, with range, torque rms and repeated positions of the
 /// healthy logs; the top speed is 0.
 template <typename Model>
-void set_healthy_motion(const std::vector<UniformLog>& logs, Model& m) {
+Model with_motion_of(const std::vector<UniformLog>& logs, Model m) {
   // Bounds of the share of repeated positions, whose logarithm is the price of a stuck encoder.
   constexpr double kFewestRepeats = 1e-3, kMostRepeats = 0.999;
   const int n = logs.front().joints();
@@ -34,6 +34,7 @@ void set_healthy_motion(const std::vector<UniformLog>& logs, Model& m) {
   }
   m.repeat_share = m.repeat_share.cwiseMax(kFewestRepeats).cwiseMin(kMostRepeats);
   m.torque_rms = (m.torque_rms / rows).cwiseSqrt();
+  return m;
 }
 
 /// Returns by joint whether a log shows that its velocity was computed from its position (is_derived()).

@@ -57,9 +57,9 @@ std::vector<int> link_columns(const RigidColumns& rigid) {
   return out;
 }
 
-/// Sets top speeds and what set_healthy_motion() sets from the healthy logs.
-void set_coarse_motion(const std::vector<UniformLog>& logs, OneStepModel& m) {
-  set_healthy_motion(logs, m);
+/// Returns the model with top speeds and what with_motion_of() takes from the healthy logs.
+OneStepModel with_coarse_motion(const std::vector<UniformLog>& logs, OneStepModel m) {
+  m = with_motion_of(logs, std::move(m));
   for (const UniformLog& log : logs) {
     const Trajectory x = readings(log);
     for (int j = 0; j < m.torque_rms.size(); ++j) {
@@ -69,6 +69,7 @@ void set_coarse_motion(const std::vector<UniformLog>& logs, OneStepModel& m) {
     }
   }
   m.torque_rms = m.torque_rms.cwiseMax(1e-9);
+  return m;
 }
 
 /// Returns the variance of the measurements before any robot is fitted, from their fourth differences.
@@ -333,7 +334,7 @@ OneStepModel fit_coarse_days(std::span<LogSource* const> sources, const Robot& r
   m.body = MotionBody(std::move(rigid), VectorXd::Constant(space.joints(), kFrictionWidth));
   m.setting.period_s = logs.front().period_s;
   m.setting.torque_is_held = torque_between_samples == TorqueTiming::held;
-  set_coarse_motion(logs, m);
+  m = with_coarse_motion(logs, std::move(m));
   m.reading_variance = first_reading_variance(logs);
   m.theta = coarse_start(logs, m, parameters_of(space, robot.chain, 0.0)(kept), robot.chain.friction);
   const MotionLayout at = m.layout();

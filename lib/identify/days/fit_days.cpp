@@ -51,7 +51,7 @@ constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.05, 0.03, 0.3};
 /// Returns the model with ranges, top speeds, noise and repeated positions of the healthy logs.
 BalanceModel with_healthy_motion(const std::vector<UniformLog>& logs, BalanceModel m) {
   std::vector<VectorXd> q, dq;
-  set_healthy_motion(logs, m);
+  m = with_motion_of(logs, std::move(m));
   for (const UniformLog& log : logs) {
     q.push_back(log.q_noise);
     dq.push_back(log.dq.rows() > 0 ? log.dq_noise : log.q_noise);
