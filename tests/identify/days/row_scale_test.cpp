@@ -72,7 +72,7 @@ TEST(RowScale, AMeasuredVelocityReplacesACoarseEncoderUnlessItWasDerivedFromIt) 
 }
 
 TEST(RowScale, TheKernelHasABoundAndARestingJointDoesNotWidenIt) {
-  std::vector<UniformLog> logs = without_velocity(moving_and_resting(0.002, {0.1, 0.0}));
+  std::vector<UniformLog> logs = without_velocity(moving_and_resting(0.002, {0.02, 0.0}));
   EXPECT_NEAR(row_scale(logs, kMeasured).kernel_s, 0.048, 0.01);
   logs[0].q.col(0) = logs[0].q.col(1);
   EXPECT_EQ(row_scale(logs, kMeasured).kernel_s, 0.012);
