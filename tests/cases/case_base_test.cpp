@@ -168,7 +168,7 @@ TEST(SameEvent, IsTheSameLogOnsetAndName) {
   EXPECT_FALSE(is_same_event(c, other)) << "another joint at the same time";
   Case unknown = c;
   unknown.log_sha256 = "";
-  EXPECT_FALSE(is_same_event(unknown, unknown)) << "nothing tells that they are one";
+  EXPECT_FALSE(is_same_event(unknown, unknown)) << "no evidence shows that they are the same event";
 }
 
 TEST(MergeCases, AnotherKindOfRobotIsRefused) {

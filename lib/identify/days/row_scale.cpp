@@ -12,7 +12,6 @@
 namespace faultline {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Kernel of logs with little noise, standard deviation: the longer one for sample periods from kHighRate_s
@@ -68,9 +67,9 @@ double noise_share(const NoisySignal& signal, double period_s, double kernel_s) 
 
 /// Returns the kernel that suits the signal: `shortest_s` if it has little noise or the joint hardly moves.
 double kernel_for(const NoisySignal& signal, double period_s, double shortest_s) {
+  if (noise_share(signal, period_s, shortest_s) <= kMostNoise) return shortest_s;
   const double widest_s = kWidest * shortest_s;
-  const bool moves = noise_share(signal, period_s, widest_s) < 1.0;
-  if (!moves || noise_share(signal, period_s, shortest_s) <= kMostNoise) return shortest_s;
+  if (noise_share(signal, period_s, widest_s) >= 1.0) return shortest_s;  // the joint hardly moves
   double kernel_s = shortest_s;
   while (kernel_s < widest_s && noise_share(signal, period_s, kernel_s) > kReducedNoise) kernel_s *= kWider;
   return std::min(kernel_s, widest_s);
