@@ -23,9 +23,7 @@ constexpr std::array kCommanded{Quantity::q_ref, Quantity::dq_ref, Quantity::tau
 constexpr std::array kMeasuredBeside{Quantity::q, Quantity::dq, Quantity::tau_meas};
 /// Upper limit of the columns; each column beyond those of the main stream has a value in each row.
 constexpr std::size_t kMostLogColumns = 1024;
-constexpr std::array kArrays{"position", "velocity", "effort"};
-
-std::string quoted(const std::string& name) { return "\"" + shortened(name, kLongestName) + "\""; }
+constexpr std::array kArrays{"position", "velocity", "effort"};  ///< in the order of JointMessage
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -43,8 +41,8 @@ int choose_main(const std::vector<Topic>& topics, const std::vector<JointStream>
                 const RecordingChoice& choice, const std::string& path) {
   const auto name_of = [&](const JointStream& stream) { return topics[stream.topic].name; };
   const auto rank = [&](const JointStream& stream) {
-    return std::tuple(stream.position, name_of(stream) != kExtraTopic, !is_command(name_of(stream)),
-                      name_of(stream).find("joint_states") != std::string::npos, stream.effort,
+    return std::tuple(stream.has[0], name_of(stream) != kExtraTopic, !is_command(name_of(stream)),
+                      name_of(stream).find("joint_states") != std::string::npos, stream.has[2],
                       stream.messages);
   };
   int best = -1;
@@ -156,7 +154,7 @@ class Layouter {
     const std::string& topic = topics_[stream.topic].name;
     if (is_computed(topic)) return add_nothing(s);
     const std::vector<int> same = same_joints(stream, order);
-    const bool torques = stream.effort && !stream.position && !stream.velocity;
+    const bool torques = stream.has == std::array{false, false, true};
     if (!same.empty() && is_command(topic) && !has_reference_) {
       has_reference_ = true;
       add_stream(s, kCommanded, same);
@@ -172,7 +170,7 @@ class Layouter {
   /// True for positions, not commanded, of joints on the same topic or with some of the same names.
   bool is_rival(const JointStream& stream, const JointStream& main) const {
     const std::string& topic = topics_[stream.topic].name;
-    if (!stream.position || is_command(topic) || is_computed(topic) || topic == kExtraTopic) return false;
+    if (!stream.has[0] || is_command(topic) || is_computed(topic) || topic == kExtraTopic) return false;
     return stream.topic == main.topic || share_a_joint(stream.joints, main.joints);
   }
 
@@ -207,11 +205,10 @@ class Layouter {
   /// Adds the columns of a stream: `joints` are the log's, with the meaning `quantities`, others have none.
   void add_stream(int s, const std::array<Quantity, 3>& quantities, const std::vector<int>& joints) {
     const JointStream& stream = streams_[s];
-    const std::array<bool, 3> there{stream.position, stream.velocity, stream.effort};
     for (std::size_t a = 0; a < kArrays.size(); ++a) {
       JointColumns& columns = layout_.of_stream[s][a];
       columns.assign(stream.joints.size(), -1);
-      if (!there[a]) continue;
+      if (!stream.has[a]) continue;
       for (int j = 0; j < std::ssize(joints); ++j)
         add_column(columns[joints[j]], stream, joints[j], kArrays[a], Channel{quantities[a], j + 1});
       for (int j = 0; j < std::ssize(stream.joints); ++j)
@@ -244,49 +241,11 @@ class Layouter {
   std::string first_left_out_;
 };
 
-/// A stream continues alone when so many of its messages (more if it sends several per row) follow each other
-/// without one of the main stream.
-constexpr std::int64_t kAlone = 10;
-
 }  // namespace
 
 JointLayout layout_joints(const std::vector<Topic>& topics, const std::vector<JointStream>& streams,
                           const RecordingChoice& choice, const std::string& path) {
   return Layouter(topics, streams).run(choice, path);
-}
-
-RivalStreams::RivalStreams(const std::vector<JointStream>& streams, const JointLayout& layout)
-    : is_rival_(layout.is_rival), since_(streams.size(), 0) {
-  const std::int64_t rows =
-      std::max<std::int64_t>(1, streams[static_cast<std::size_t>(layout.main)].messages);
-  for (const JointStream& stream : streams)
-    most_.push_back(kAlone * std::max<std::int64_t>(1, stream.messages / rows));
-}
-
-std::int64_t RivalStreams::rows_lost_by(int stream) {
-  const auto s = static_cast<std::size_t>(stream);
-  if (!is_rival_[s]) return 0;
-  any_came_ = true;
-  if (++since_[s] <= most_[s]) return 0;
-  return since_[s] == most_[s] + 1 ? since_[s] : 1;
-}
-
-/// Counts the messages that are in no row, without those already counted as lost rows.
-void RivalStreams::count(std::int64_t taken) {
-  for (std::size_t s = 0; s < since_.size(); ++s) {
-    if (since_[s] <= most_[s]) between_rows_ += std::max<std::int64_t>(0, since_[s] - taken);
-    since_[s] = 0;
-  }
-  any_came_ = false;
-}
-
-void RivalStreams::report_at_end(Issues& issues) {
-  count(0);
-  if (between_rows_ == 0) return;
-  issues.add({"messages_between_rows", "", Severity::note,
-              "messages about other joints came between those of the log; each row holds the latest of "
-              "them, and the others are in no row",
-              0, kNan, between_rows_});
 }
 
 }  // namespace faultline

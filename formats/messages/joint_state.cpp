@@ -104,9 +104,7 @@ class RosDecoder : public JointStateDecoder {
       if (members.ok) last_names_.assign(bytes.substr(begin, members.position() - begin));
     }
     state.names = bytes.substr(begin, members.position() - begin);
-    state.position = members.numbers();
-    state.velocity = members.numbers();
-    state.effort = members.numbers();
+    for (PackedNumbers& array : state.arrays) array = members.numbers();
     last_wire_ = wire;
     return members.ok;
   }
@@ -174,10 +172,6 @@ bool take_numbers(const MessageJson& message, const char* name, std::vector<doub
   return true;
 }
 
-PackedNumbers packed(const std::vector<double>& numbers) {
-  return {reinterpret_cast<const char*>(numbers.data()), numbers.size(), false};
-}
-
 /// Decodes JSON objects with the members of the ROS message; the stamp's nanoseconds are "nsec", "nanosec" or
 /// "nsecs", its seconds "sec" or "secs".
 class JsonDecoder : public JointStateDecoder {
@@ -187,10 +181,13 @@ class JsonDecoder : public JointStateDecoder {
     const MessageJson message = MessageJson::parse(bytes, nullptr, false);
     if (!message.is_object()) return false;
     if (!take_names(message)) return false;
-    if (!take_numbers(message, "position", position_) || !take_numbers(message, "velocity", velocity_) ||
-        !take_numbers(message, "effort", effort_))
-      return false;
-    state = {stamp_of(message), names_text_, packed(position_), packed(velocity_), packed(effort_)};
+    state.stamp_ns = stamp_of(message);
+    state.names = names_text_;
+    constexpr std::array kNames{"position", "velocity", "effort"};
+    for (std::size_t a = 0; a < kNames.size(); ++a) {
+      if (!take_numbers(message, kNames[a], arrays_[a])) return false;
+      state.arrays[a] = {reinterpret_cast<const char*>(arrays_[a].data()), arrays_[a].size(), false};
+    }
     return true;
   }
 
@@ -213,7 +210,7 @@ class JsonDecoder : public JointStateDecoder {
 
   std::vector<std::string> names_;
   std::string names_text_;
-  std::vector<double> position_, velocity_, effort_;
+  std::array<std::vector<double>, 3> arrays_;
 };
 
 }  // namespace

@@ -2,17 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "formats/bytes/work_budget.hpp"
 #include "formats/messages/joint_layout.hpp"
-#include "formats/messages/message_issues.hpp"
 #include "formats/messages/message_source.hpp"
+#include "formats/messages/recording_checks.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/issue.hpp"
+#include "lib/core/text.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {
@@ -23,81 +22,24 @@ constexpr std::int64_t kLearnedMessages = 4000;
 constexpr std::uint64_t kLearnedBytes = 1 << 26;
 /// Largest number of values of a block, for any number of columns: 8 MiB.
 constexpr std::size_t kMostBlockValues = 1 << 20;
-/// rad or m. Closer positions of two publishers count as one; the codes of an encoder at rest may alternate
-/// by less.
-constexpr double kApart = 1e-2;
-constexpr double kNear = 0.25;                 ///< share of the distance to the last row
-constexpr double kMostShare = 0.5;             ///< share of rows that may look like two publishers
-constexpr std::int64_t kFewestJointRows = 20;  ///< rows that the check for two publishers needs
-
-double distance(const std::vector<double>& position, const std::vector<double>& other) {
-  double largest = 0.0;
-  for (std::size_t j = 0; j < std::min(position.size(), other.size()); ++j)
-    largest = std::fmax(largest, std::abs(position[j] - other[j]));
-  return largest;
-}
-
-/// Tests if the positions of the rows are those of two publishers in turn: each row is near the one before
-/// the last, not near the last one.
-class AlternatingRows {
- public:
-  /// Adds the positions of all joints, always in the same order.
-  void add(const std::vector<double>& position) {
-    if (!one_before_.empty()) {
-      const double to_last = distance(position, last_);
-      alternating_ += to_last > kApart && distance(position, one_before_) < kNear * to_last;
-      ++rows_;
-    }
-    one_before_.swap(last_);
-    last_ = position;
-  }
-
-  /// True when most of the rows so far alternate.
-  bool alternate() const {
-    return rows_ >= kFewestJointRows &&
-           static_cast<double>(alternating_) > kMostShare * static_cast<double>(rows_);
-  }
-
- private:
-  std::vector<double> last_, one_before_;
-  std::int64_t rows_ = 0, alternating_ = 0;
-};
-
-/// Delay from the stamps in the headers to the receipt of the messages.
-class ReceiptGap {
- public:
-  void add(std::int64_t stamp_ns, std::int64_t receipt_ns) {
-    if (stamp_ns == 0) return;
-    const double gap_s = static_cast<double>(receipt_ns - stamp_ns) / 1e9;
-    least_s_ = std::min(least_s_, gap_s);
-    most_s_ = std::max(most_s_, gap_s);
-    sum_s_ += gap_s;
-    ++messages_;
-  }
-
-  /// Adds a note when some delay is not 0.
-  void report(Issues& issues) const {
-    if (messages_ == 0 || (least_s_ == 0.0 && most_s_ == 0.0)) return;
-    issues.add({"receipt_gap", "t", Severity::note,
-                fmt::format("the messages were received {:.4g} s after the stamps in their headers on "
-                            "average, between {:.4g} and {:.4g} s. To choose the time, name it in the robot "
-                            "file: [log] time = \"header\" or \"receipt\"",
-                            sum_s_ / static_cast<double>(messages_), least_s_, most_s_)});
-  }
-
- private:
-  double least_s_ = std::numeric_limits<double>::infinity();
-  double most_s_ = -std::numeric_limits<double>::infinity();
-  double sum_s_ = 0.0;
-  std::int64_t messages_ = 0;
-};
-
+constexpr std::size_t kNamedTopics = 20, kNamedJoints = 8;  ///< that a message lists
 /// Converts to s: exactly for stamps that count from a start, to 2e-7 s for those since 1970.
 double seconds_of(std::int64_t nanoseconds) {
   constexpr std::int64_t kExact = std::int64_t{1} << 53, kSecond = 1'000'000'000;
   if (nanoseconds < kExact) return static_cast<double>(nanoseconds) / 1e9;
   const std::int64_t seconds = nanoseconds / kSecond;
   return static_cast<double>(seconds) + static_cast<double>(nanoseconds % kSecond) / 1e9;
+}
+
+/// Returns "its topics are ..".
+std::string topics_sentence(const std::vector<Topic>& topics) {
+  if (topics.empty()) return "it holds no topics";
+  std::string text = "its topics are ";
+  for (std::size_t i = 0; i < topics.size() && i < kNamedTopics; ++i)
+    text += fmt::format("{}{} ({}, {})", i ? ", " : "", quoted(topics[i].name),
+                        shortened(topics[i].type, kLongestName), shortened(topics[i].encoding, kLongestName));
+  if (topics.size() > kNamedTopics) text += fmt::format(" and {} more", topics.size() - kNamedTopics);
+  return text;
 }
 
 class JointStateReader : public RawReader {
@@ -206,19 +148,18 @@ class JointStateReader : public RawReader {
     const Topic& topic = source_->topics()[message.topic];
     bool damaged = message.lost;
     const JointPlacing* placing = damaged ? nullptr : streams_.read(topic, message, state_, damaged);
-    const bool of_main_topic = message.topic == main_stream().topic;
-    if (damaged && of_main_topic) {
-      issues_.add(lost_row(++identity_.rows_read, message.lost));
-      return pass_lost_row(block);
-    }
-    if (placing && placing->stream < 0 && of_main_topic) {
-      issues_.add(late_row(++identity_.rows_read, topic));
+    const bool is_late = placing && placing->stream < 0;
+    if ((damaged || is_late) && message.topic == main_stream().topic) {
+      lose_row(message, topic, is_late);
       return pass_lost_row(block);
     }
     if (damaged && !message.lost)
-      issues_.add(damaged_message(topic));
-    else if (placing && placing->stream < 0)
-      issues_.add(late_message(topic));
+      issues_.add({"message_damaged", "", Severity::warning,
+                   "a message of " + quoted(topic.name) + " cannot be read"});
+    else if (is_late)
+      issues_.add({"joints_appear_late", "", Severity::severe,
+                   "a message of " + quoted(topic.name) +
+                       " names joints that no earlier message named; it was left out"});
     else if (placing && placing->stream == layout_.main)
       put_row(message, *placing, block);
     else if (placing && lose_rival_rows(placing->stream))
@@ -229,6 +170,30 @@ class JointStateReader : public RawReader {
   }
 
   const JointStream& main_stream() const { return streams_.streams()[layout_.main]; }
+
+  /// Reports a message that should be a row, but was lost with its part of the file, is damaged, or has
+  /// joints that were not known when the columns were made.
+  void lose_row(const Message& message, const Topic& topic, bool is_late) {
+    const std::int64_t row = ++identity_.rows_read;
+    if (message.lost)
+      report_lost("messages_lost", Severity::severe, row, 1,
+                  fmt::format("message {} of the joints was in a damaged part of the file and is lost", row));
+    else if (is_late)
+      report_lost("joints_appear_late", Severity::severe, row, 1,
+                  fmt::format("message {} of {} names joints that no earlier message named, or joints in "
+                              "more orders than a recording has; it was left out",
+                              row, quoted(topic.name)));
+    else
+      report_lost(
+          "message_damaged", Severity::warning, row, 1,
+          fmt::format("message {} of the joints cannot be read: its lengths do not fit its size", row));
+  }
+
+  /// Adds the issue of rows that were left out, from row `first` on, which counts from 1.
+  void report_lost(const char* code, Severity severity, std::int64_t first, std::int64_t rows,
+                   const std::string& what) {
+    issues_.add({code, "", severity, what, first, kNan, rows, rows});
+  }
 
   /// Skips a lost row; false when the block must end, as its rows are consecutive.
   bool pass_lost_row(RawBlock& block) const {
@@ -242,7 +207,16 @@ class JointStateReader : public RawReader {
     const std::int64_t rows = rivals_.rows_lost_by(s);
     if (rows == 0) return false;
     const JointStream& stream = streams_.streams()[s];
-    issues_.add(joints_changed(stream, source_->topics()[stream.topic], identity_.rows_read + 1, rows));
+    std::string joints;
+    for (std::size_t j = 0; j < std::min(kNamedJoints, stream.joints.size()); ++j)
+      joints += (j > 0 ? ", " : "") + shortened(stream.joints[j], kLongestName);
+    const std::int64_t first = identity_.rows_read + 1;
+    report_lost("joints_changed", Severity::severe, first, rows,
+                fmt::format("from row {} on, all messages are of {} with the joints {}, which are not those "
+                            "of the log: names or topic changed, or the recording continues with another "
+                            "robot. These messages were left out; to read them instead, name their [log] "
+                            "topic and joints in a robot file",
+                            first, quoted(source_->topics()[stream.topic].name), joints));
     identity_.rows_read += rows;
     return true;
   }
@@ -252,14 +226,12 @@ class JointStateReader : public RawReader {
     ++identity_.rows_read;
     source_->spend(kRowWork_ns + kValueWork_ns * std::ssize(layout_.columns));
     rivals_.at_row();
-    if (placing.complete && state_.position.count == placing.joint_of.size()) watch_course(placing);
+    if (placing.complete && state_.arrays[0].count == placing.joint_of.size()) watch_course(placing);
     gap_.add(state_.stamp_ns, message.receipt_ns);
     put(layout_.stamp_column, row, seconds_of(state_.stamp_ns));
     put(layout_.receipt_column, row, seconds_of(message.receipt_ns));
     const auto& columns = layout_.of_stream[layout_.main];
-    put_array(columns[0], placing, state_.position, row);
-    put_array(columns[1], placing, state_.velocity, row);
-    put_array(columns[2], placing, state_.effort, row);
+    for (std::size_t a = 0; a < columns.size(); ++a) put_array(columns[a], placing, state_.arrays[a], row);
     for (const int column : held_columns_) put(column, row, held_[column]);
     if (!placing.complete) note_partial(placing);
   }
@@ -267,7 +239,7 @@ class JointStateReader : public RawReader {
   void watch_course(const JointPlacing& placing) {
     positions_.resize(placing.joint_of.size());
     for (std::size_t i = 0; i < placing.joint_of.size(); ++i)
-      positions_[static_cast<std::size_t>(placing.joint_of[i])] = state_.position[i];
+      positions_[static_cast<std::size_t>(placing.joint_of[i])] = state_.arrays[0][i];
     alternating_.add(positions_);
   }
 
@@ -287,27 +259,37 @@ class JointStateReader : public RawReader {
       if (joint >= 0 && columns[joint] >= 0) put(columns[joint], row, numbers[i]);
     }
     if (numbers.count > 0 && numbers.count != placing.joint_of.size())
-      issues_.add(array_length(identity_.rows_read, numbers.count, placing.joint_of.size()));
+      issues_.add({"array_length", "", Severity::warning,
+                   fmt::format("message {} has {} values for {} joints; surplus values were left out, and "
+                               "lacking ones count as missing",
+                               identity_.rows_read, numbers.count, placing.joint_of.size()),
+                   identity_.rows_read});
   }
 
   void note_partial(const JointPlacing& placing) {
-    const auto& joints = streams_.streams()[layout_.main].joints;
+    const std::int64_t row = identity_.rows_read;
     if (std::count(placing.joint_of.begin(), placing.joint_of.end(), -1) > 0)
-      issues_.add(late_joints(identity_.rows_read));
+      issues_.add({"joints_appear_late", "", Severity::severe,
+                   fmt::format("message {} names joints that no earlier message named, or one joint twice; "
+                               "their values were left out",
+                               row),
+                   row});
     const auto missing = std::find(placing.is_present.begin(), placing.is_present.end(), false);
     if (missing != placing.is_present.end())
-      issues_.add(joint_missing(identity_.rows_read, joints[missing - placing.is_present.begin()]));
+      issues_.add({"joint_missing", "", Severity::warning,
+                   fmt::format("message {} does not name joint {}; the values of this joint are missing", row,
+                               quoted(main_stream().joints[missing - placing.is_present.begin()])),
+                   row});
   }
 
   /// Keeps the values of another stream until its next message.
   void hold(const JointPlacing& placing) {
-    const std::array arrays{&state_.position, &state_.velocity, &state_.effort};
-    for (std::size_t a = 0; a < arrays.size(); ++a) {
+    for (std::size_t a = 0; a < state_.arrays.size(); ++a) {
       const JointColumns& columns = layout_.of_stream[placing.stream][a];
-      const std::size_t count = std::min(arrays[a]->count, placing.joint_of.size());
+      const std::size_t count = std::min(state_.arrays[a].count, placing.joint_of.size());
       for (std::size_t i = 0; i < count; ++i)
         if (const int joint = placing.joint_of[i]; joint >= 0 && columns[joint] >= 0)
-          held_[columns[joint]] = (*arrays[a])[i];
+          held_[columns[joint]] = state_.arrays[a][i];
     }
   }
 
@@ -324,7 +306,12 @@ class JointStateReader : public RawReader {
     if (at_end_) return;
     at_end_ = true;
     identity_.sha256 = source_->sha256();
-    if (alternating_.alternate()) issues_.add(publishers_mixed(source_->topics()[main_stream().topic]));
+    if (alternating_.alternate())
+      issues_.add({"publishers_mixed", "", Severity::severe,
+                   "the positions alternate from row to row between two trajectories, as if two publishers "
+                   "send on " +
+                       quoted(source_->topics()[main_stream().topic].name) +
+                       "; record each publisher on its own topic"});
     rivals_.report_at_end(issues_);
   }
 

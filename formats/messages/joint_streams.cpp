@@ -17,9 +17,7 @@ void add_to(JointStream& stream, const JointStream& more) {
     if (stream.joints.size() < kMostJoints && index_of(stream.joints, joint) < 0)
       stream.joints.push_back(joint);
   stream.messages += more.messages;
-  stream.position = stream.position || more.position;
-  stream.velocity = stream.velocity || more.velocity;
-  stream.effort = stream.effort || more.effort;
+  for (std::size_t a = 0; a < stream.has.size(); ++a) stream.has[a] = stream.has[a] || more.has[a];
   stream.stamped = stream.stamped || more.stamped;
   stream.received_later = stream.received_later || more.received_later;
 }
@@ -28,7 +26,8 @@ void add_to(JointStream& stream, const JointStream& more) {
 std::vector<std::string> names_in(const JointMessage& state, const JointStateDecoder& decoder) {
   std::vector<std::string> names = decoder.decode_names(state);
   if (!names.empty()) return names;
-  const std::size_t joints = std::max({state.position.count, state.velocity.count, state.effort.count});
+  std::size_t joints = 0;
+  for (const PackedNumbers& array : state.arrays) joints = std::max(joints, array.count);
   for (std::size_t j = 1; j <= std::min(joints, kMostJoints); ++j) names.push_back(std::to_string(j));
   return names;
 }
@@ -81,9 +80,10 @@ bool JointStreams::learn(const Topic& topic, const Message& message) {
   if (!decoder || !decoder->decode(message.bytes, state)) return false;
   Pattern* pattern = pattern_of(message.topic, state, *decoder);
   if (!pattern || pattern->names.empty() || pattern->names.size() > kMostJoints) return false;
-  add_to(pattern->counted,
-         {message.topic, pattern->names, 1, state.position.count > 0, state.velocity.count > 0,
-          state.effort.count > 0, state.stamp_ns != 0, state.stamp_ns != message.receipt_ns});
+  JointStream met{
+      message.topic, pattern->names, 1, {}, state.stamp_ns != 0, state.stamp_ns != message.receipt_ns};
+  for (std::size_t a = 0; a < met.has.size(); ++a) met.has[a] = state.arrays[a].count > 0;
+  add_to(pattern->counted, met);
   return true;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -24,9 +25,9 @@ struct PackedNumbers {
 /// The content of a sensor_msgs/JointState; valid as long as the bytes of the message and, for JSON, until
 /// the next one is decoded.
 struct JointMessage {
-  std::int64_t stamp_ns = 0;  ///< of its header
-  std::string_view names;     ///< encoded: equal bytes mean equal names; see decode_names()
-  PackedNumbers position, velocity, effort;
+  std::int64_t stamp_ns = 0;            ///< of its header
+  std::string_view names;               ///< encoded: equal bytes mean equal names; see decode_names()
+  std::array<PackedNumbers, 3> arrays;  ///< positions, velocities, efforts
 };
 
 /// Reads the messages of one encoding.
@@ -50,9 +51,9 @@ struct JointStream {
   int topic = 0;
   std::vector<std::string> joints;  ///< in the order of their first message
   std::int64_t messages = 0;
-  bool position = false, velocity = false, effort = false;  ///< some message has this array
-  bool stamped = false;                                     ///< some stamp is not 0
-  bool received_later = false;                              ///< some receipt time differs from its stamp
+  std::array<bool, 3> has{};    ///< some message has this array of JointMessage
+  bool stamped = false;         ///< some stamp is not 0
+  bool received_later = false;  ///< some receipt time differs from its stamp
 };
 
 /// Assigns the messages with one list of joint names to a stream.

@@ -14,6 +14,7 @@
 #include "formats/byte_source.hpp"
 #include "formats/bytes/unpack_block.hpp"
 #include "lib/core/issue.hpp"
+#include "lib/core/text.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {
@@ -24,6 +25,9 @@ struct Topic {
   std::string type;      ///< such as "sensor_msgs/msg/JointState"
   std::string encoding;  ///< of the messages: "cdr", "ros1", "json"; others cannot be read
 };
+
+/// Returns the name of a topic or a joint in quotation marks, shortened.
+inline std::string quoted(std::string_view name) { return "\"" + shortened(name, kLongestName) + "\""; }
 
 /// Bytes to which each text of a topic is cut; no name is as long.
 inline constexpr std::size_t kLongestTopicText = 1 << 12;
