@@ -154,10 +154,8 @@ void StoredArrays::fetch(std::size_t content, StreamKey key, std::int64_t at, st
     std::copy_n(bytes->data() + begin, region_.got, region_.bytes.data());
     return;
   }
-  auto stream = streams_.find(key);
-  if (stream == streams_.end())
-    stream = streams_.emplace(key, ContentStream(*file_, list_.contents[content])).first;
-  region_.got = stream->second.read(at, region_.bytes.data(), count);
+  ContentStream& stream = streams_.try_emplace(key, *file_, list_.contents[content]).first->second;
+  region_.got = stream.read(at, region_.bytes.data(), count);
 }
 
 void StoredArrays::read_by_rows(const ArrayBand& band, BandValues& values) {

@@ -4,12 +4,10 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <vector>
 
 #include "formats/bytes/little_endian.hpp"
 #include "lib/core/error.hpp"
@@ -62,102 +60,81 @@ std::int64_t most_bytes(const StoredContent& content) {
   return content.unpacked ? std::min(most, *content.unpacked) : most;
 }
 
-struct ContentStream::Inflater {
-  Inflater(const RandomFile& from, const StoredContent& what) : file(from), content(what) {
-    input.resize(kInputBytes);
-    ok = ::inflateInit2(&stream, window_bits()) == Z_OK;
-    begun = ok;
-  }
-  ~Inflater() {
-    if (begun) ::inflateEnd(&stream);
-  }
-  Inflater(const Inflater&) = delete;
-  Inflater& operator=(const Inflater&) = delete;
-
-  int window_bits() const { return content.packing == Packing::deflate ? -MAX_WBITS : MAX_WBITS; }
-
-  void restart() {
-    ok = begun && ::inflateReset(&stream) == Z_OK;
-    stream.avail_in = 0;
-    taken = position = 0;
-    crc = 0;
-    ended = wrong = false;
-  }
-
-  void fill() {
-    const auto left = static_cast<std::size_t>(content.bytes - taken);
-    const std::size_t got = file.read(content.offset + taken, input.data(), std::min(input.size(), left));
-    taken += static_cast<std::int64_t>(got);
-    stream.next_in = reinterpret_cast<Bytef*>(input.data());
-    stream.avail_in = static_cast<uInt>(got);
-  }
-
-  /// Unpacks the next bytes; returns fewer if the stream ends.
-  std::size_t next(char* to, std::size_t count) {
-    std::size_t got = 0;
-    while (ok && !ended && got < count) {
-      if (stream.avail_in == 0) fill();
-      const uInt room = static_cast<uInt>(std::min<std::size_t>(count - got, 1U << 30));
-      stream.next_out = reinterpret_cast<Bytef*>(to + got);
-      stream.avail_out = room;
-      const uInt before = stream.avail_in;
-      const int state = ::inflate(&stream, Z_NO_FLUSH);
-      const std::size_t more = room - stream.avail_out;
-      got += more;
-      ended = state == Z_STREAM_END;
-      wrong = wrong || state == Z_DATA_ERROR;
-      const bool stuck = more == 0 && before == stream.avail_in;
-      ok = state == Z_STREAM_END || (state == Z_OK && !stuck) || (state == Z_BUF_ERROR && !stuck);
-    }
-    crc = crc32_of({to, got}, crc);
-    position += static_cast<std::int64_t>(got);
-    file.spend(unpack_work_ns(kDeflateByte_ns, static_cast<std::int64_t>(got)));
-    return got;
-  }
-
-  const RandomFile& file;
-  const StoredContent content;
-  z_stream stream{};
-  std::vector<char> input, passed;
-  std::int64_t taken = 0;     ///< bytes of the content in the file
-  std::int64_t position = 0;  ///< unpacked bytes
-  std::uint32_t crc = 0;
-  bool begun = false, ok = false, ended = false;
-  bool wrong = false;  ///< compressed bytes or zlib checksum are damaged
-};
-
 ContentStream::ContentStream(const RandomFile& file, const StoredContent& content)
-    : file_(&file), content_(content) {
-  if (content.packing != Packing::plain) inflater_ = std::make_unique<Inflater>(file, content);
+    : file_(file), content_(content) {
+  if (!is_packed()) return;
+  input_.resize(kInputBytes);
+  begun_ = ok_ =
+      ::inflateInit2(&stream_, content.packing == Packing::deflate ? -MAX_WBITS : MAX_WBITS) == Z_OK;
 }
 
-ContentStream::~ContentStream() = default;
-ContentStream::ContentStream(ContentStream&&) noexcept = default;
+ContentStream::~ContentStream() {
+  if (begun_) ::inflateEnd(&stream_);
+}
+
+void ContentStream::restart() {
+  ok_ = begun_ && ::inflateReset(&stream_) == Z_OK;
+  stream_.avail_in = 0;
+  taken_ = position_ = 0;
+  crc_ = 0;
+  ended_ = wrong_ = false;
+}
+
+void ContentStream::fill() {
+  const auto left = static_cast<std::size_t>(content_.bytes - taken_);
+  const std::size_t got = file_.read(content_.offset + taken_, input_.data(), std::min(input_.size(), left));
+  taken_ += static_cast<std::int64_t>(got);
+  stream_.next_in = reinterpret_cast<Bytef*>(input_.data());
+  stream_.avail_in = static_cast<uInt>(got);
+}
+
+/// Unpacks the next bytes; returns fewer if the stream ends.
+std::size_t ContentStream::unpack(char* to, std::size_t count) {
+  std::size_t got = 0;
+  while (ok_ && !ended_ && got < count) {
+    if (stream_.avail_in == 0) fill();
+    const uInt room = static_cast<uInt>(std::min<std::size_t>(count - got, 1U << 30));
+    stream_.next_out = reinterpret_cast<Bytef*>(to + got);
+    stream_.avail_out = room;
+    const uInt before = stream_.avail_in;
+    const int state = ::inflate(&stream_, Z_NO_FLUSH);
+    const std::size_t more = room - stream_.avail_out;
+    got += more;
+    ended_ = state == Z_STREAM_END;
+    wrong_ = wrong_ || state == Z_DATA_ERROR;
+    const bool stuck = more == 0 && before == stream_.avail_in;
+    ok_ = state == Z_STREAM_END || (state == Z_OK && !stuck) || (state == Z_BUF_ERROR && !stuck);
+  }
+  crc_ = crc32_of({to, got}, crc_);
+  position_ += static_cast<std::int64_t>(got);
+  file_.spend(unpack_work_ns(kDeflateByte_ns, static_cast<std::int64_t>(got)));
+  return got;
+}
+
+/// Unpacks up to `count` of the next bytes that nobody needs; returns their number.
+std::size_t ContentStream::pass(std::size_t count) {
+  passed_.resize(kInputBytes);
+  return unpack(passed_.data(), std::min(count, kInputBytes));
+}
 
 std::size_t ContentStream::read(std::int64_t at, char* to, std::size_t count) {
-  if (!inflater_) {
+  if (!is_packed()) {
     const std::int64_t left = std::max<std::int64_t>(0, content_.bytes - at);
-    return file_->read(content_.offset + at, to, std::min(count, static_cast<std::size_t>(left)));
+    return file_.read(content_.offset + at, to, std::min(count, static_cast<std::size_t>(left)));
   }
-  Inflater& inflater = *inflater_;
-  if (at < inflater.position) inflater.restart();
-  if (at > inflater.position) inflater.passed.resize(kInputBytes);
-  while (inflater.position < at) {
-    const auto skip = std::min<std::int64_t>(at - inflater.position, kInputBytes);
-    if (inflater.next(inflater.passed.data(), static_cast<std::size_t>(skip)) == 0) return 0;
-  }
-  return inflater.next(to, count);
+  if (at < position_) restart();
+  while (position_ < at)
+    if (pass(static_cast<std::size_t>(at - position_)) == 0) return 0;
+  return unpack(to, count);
 }
 
 bool ContentStream::mismatch() {
-  if (!inflater_) return false;
-  if (content_.packing == Packing::deflate)
-    return content_.crc && inflater_->ended && inflater_->crc != *content_.crc;
+  if (!is_packed()) return false;
+  if (content_.packing == Packing::deflate) return content_.crc && ended_ && crc_ != *content_.crc;
   // The zlib checksum is at the end, after the last number.
-  inflater_->passed.resize(kInputBytes);
-  while (inflater_->next(inflater_->passed.data(), kInputBytes) > 0) {
+  while (pass(kInputBytes) > 0) {
   }
-  return inflater_->wrong;
+  return wrong_;
 }
 
 }  // namespace faultline

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <zlib.h>
+
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "formats/bytes/work_budget.hpp"
 
@@ -52,9 +54,11 @@ std::int64_t most_bytes(const StoredContent& content);
 /// The unpacked bytes of a content; reading an earlier position unpacks again from the beginning.
 class ContentStream {
  public:
+  /// `file` must outlive the object.
   ContentStream(const RandomFile& file, const StoredContent& content);
   ~ContentStream();
-  ContentStream(ContentStream&&) noexcept;
+  ContentStream(const ContentStream&) = delete;
+  ContentStream& operator=(const ContentStream&) = delete;
 
   /// Returns the number of bytes read, fewer if the content ends or is damaged.
   std::size_t read(std::int64_t at, char* to, std::size_t count);
@@ -62,11 +66,22 @@ class ContentStream {
   bool mismatch();
 
  private:
-  struct Inflater;
+  bool is_packed() const { return content_.packing != Packing::plain; }
+  void restart();
+  void fill();
+  std::size_t unpack(char* to, std::size_t count);
+  std::size_t pass(std::size_t count);
 
-  const RandomFile* file_;
-  StoredContent content_;
-  std::unique_ptr<Inflater> inflater_;  ///< null for plain contents
+  const RandomFile& file_;
+  const StoredContent content_;
+  // The following is only used for compressed contents.
+  z_stream stream_{};
+  std::vector<char> input_, passed_;
+  std::int64_t taken_ = 0;     ///< bytes of the content in the file
+  std::int64_t position_ = 0;  ///< unpacked bytes
+  std::uint32_t crc_ = 0;
+  bool begun_ = false, ok_ = false, ended_ = false;
+  bool wrong_ = false;  ///< compressed bytes or zlib checksum are damaged
 };
 
 }  // namespace faultline

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "formats/log_writer.hpp"
@@ -12,6 +13,9 @@
 namespace faultline {
 namespace {
 
+using NotesJson = nlohmann::ordered_json;
+
+constexpr const char* kNotesSchema = "faultline/arrays/1";
 constexpr std::size_t kLongestPart = 40;  ///< of a channel's name; MATLAB allows names of 63
 
 std::string stem_of(Quantity quantity) {
@@ -72,6 +76,27 @@ void WrittenArrays::clear() {
 
 std::string WrittenArrays::notes() const {
   return notes_.extra.empty() && notes_.provenance.empty() ? "" : notes_text(notes_);
+}
+
+std::string notes_text(const ArrayNotes& notes) {
+  NotesJson extra = NotesJson::array();
+  for (const NotedChannel& channel : notes.extra)
+    extra.push_back({{"array", channel.array}, {"name", channel.name}, {"unit", channel.unit}});
+  NotesJson json{{"schema", kNotesSchema}, {"extra", extra}};
+  if (!notes.provenance.empty()) json["provenance"] = notes.provenance;
+  return json.dump(-1, ' ', true, NotesJson::error_handler_t::replace);
+}
+
+std::optional<ArrayNotes> read_notes(std::string_view text) try {
+  const auto json = nlohmann::json::parse(text);
+  if (json.at("schema") != kNotesSchema) return std::nullopt;
+  ArrayNotes notes;
+  for (const auto& channel : json.at("extra"))
+    notes.extra.push_back({channel.at("array"), channel.at("name"), channel.at("unit")});
+  if (json.contains("provenance")) notes.provenance = json.at("provenance");
+  return notes;
+} catch (const nlohmann::json::exception&) {
+  return std::nullopt;
 }
 
 }  // namespace faultline

@@ -33,74 +33,56 @@ bool take_inside(std::string_view& inside, McapOp& op, std::string_view& content
   return true;
 }
 
-std::uint64_t time_of_message(std::string_view content) {
-  ByteCursor message(content);
-  message.take<std::uint16_t>();
-  message.take<std::uint32_t>();
-  return message.take<std::uint64_t>();
+/// A message record; its data are valid as long as the record.
+struct McapMessage {
+  std::uint16_t channel = 0;
+  std::uint64_t time_ns = 0;
+  std::string_view data;
+};
+
+/// Returns nullopt for a record that is too short.
+std::optional<McapMessage> mcap_message(std::string_view content) {
+  ByteCursor record(content);
+  McapMessage message{record.take<std::uint16_t>()};
+  record.take<std::uint32_t>();  // its number
+  message.time_ns = record.take<std::uint64_t>();
+  record.take<std::uint64_t>();  // time of publication
+  message.data = record.rest();
+  return record.ok() ? std::optional(message) : std::nullopt;
 }
 
 /// The messages of an unpacked chunk of an MCAP file, sorted by time.
 class McapChunk {
  public:
-  /// Reads the definitions of the chunk, and sorts its messages if needed. `inside` must outlive the object.
+  /// Reads the definitions of the chunk, and finds its messages. `inside` must outlive the object.
   void begin(std::string_view inside, McapTopics& topics) {
     close();
-    all_ = left_ = inside;
-    bool sorted = true;
-    std::uint64_t before = 0;
-    std::size_t messages = 0;
     McapOp op{};
+    bool sorted = true;
     for (std::string_view content; take_inside(inside, op, content);) {
       if (op == McapOp::schema) topics.add_schema(content);
       if (op == McapOp::channel) topics.add_channel(content);
-      if (op != McapOp::message) continue;
-      const std::uint64_t time = time_of_message(content);
-      sorted = sorted && before <= time;
-      before = time;
-      ++messages;
+      const auto message = op == McapOp::message ? mcap_message(content) : std::nullopt;
+      if (!message) continue;
+      sorted = sorted && (messages_.empty() || messages_.back().time_ns <= message->time_ns);
+      messages_.push_back(*message);
     }
-    if (!sorted) sort(messages);
+    if (!sorted)
+      std::stable_sort(messages_.begin(), messages_.end(),
+                       [](const McapMessage& a, const McapMessage& b) { return a.time_ns < b.time_ns; });
   }
 
-  /// Returns the content of the next message; false after the last.
-  bool next(std::string_view& content) {
-    if (next_sorted_ < sorted_.size()) {
-      const Place& message = sorted_[next_sorted_++];
-      content = all_.substr(message.begin, message.size);
-      return true;
-    }
-    for (McapOp op{}; take_inside(left_, op, content);)
-      if (op == McapOp::message) return true;
-    close();
-    return false;
-  }
+  /// Returns the next message; null after the last.
+  const McapMessage* next() { return given_ < messages_.size() ? &messages_[given_++] : nullptr; }
 
   void close() {
-    all_ = left_ = {};
-    sorted_ = {};
-    next_sorted_ = 0;
+    messages_.clear();
+    given_ = 0;
   }
 
  private:
-  struct Place {
-    std::uint64_t log_time_ns = 0;
-    std::uint32_t begin = 0, size = 0;  ///< of the content in the chunk
-  };
-  void sort(std::size_t messages) {
-    sorted_.reserve(messages);
-    McapOp op{};
-    for (std::string_view content; take_inside(left_, op, content);)
-      if (op == McapOp::message)
-        sorted_.push_back({time_of_message(content), static_cast<std::uint32_t>(content.data() - all_.data()),
-                           static_cast<std::uint32_t>(content.size())});
-    std::stable_sort(sorted_.begin(), sorted_.end(),
-                     [](const Place& a, const Place& b) { return a.log_time_ns < b.log_time_ns; });
-  }
-
-  std::string_view all_, left_;
-  std::vector<Place> sorted_;  ///< empty if the chunk is sorted by time
-  std::size_t next_sorted_ = 0;
+  std::vector<McapMessage> messages_;
+  std::size_t given_ = 0;  ///< messages handed out
 };
 
 /// Compares the records of an MCAP file, read from front to back, with its summary. The data are right; an
@@ -174,8 +156,8 @@ class McapSource : public ChunkedSource {
   }
 
   Taken next_inside(Message& message) override {
-    std::string_view content;
-    return chunk_.next(content) ? read_message(content, is_doubtful(), message) : Taken::nothing;
+    const McapMessage* found = chunk_.next();
+    return found ? give_message(*found, is_doubtful(), message) : Taken::nothing;
   }
 
   Taken next_record(Message& message) override {
@@ -192,7 +174,9 @@ class McapSource : public ChunkedSource {
         channels_.add_channel(content);
         break;
       case McapOp::message:
-        return read_message(content, records_.is_too_large(), message);
+        if (const auto found = mcap_message(content))
+          return give_message(*found, records_.is_too_large(), message);
+        break;
       case McapOp::chunk:
         open_chunk(content);
         break;
@@ -215,8 +199,7 @@ class McapSource : public ChunkedSource {
   }
 
   void begin_recording() {
-    if (records_.recordings() > 1)
-      index_.report(records_.damaged() || issues_.find("chunk_damaged"), issues_);
+    if (records_.recordings() > 1) check_end();
     index_ = {};
     channels_.start_recording(std::max<std::size_t>(records_.recordings(), 1) - 1);
   }
@@ -230,17 +213,11 @@ class McapSource : public ChunkedSource {
     issues_.add(issue_from_provenance(is_ours && map.ok() && record.ok() ? text : ""));
   }
 
-  Taken read_message(std::string_view content, bool lost, Message& message) {
-    ByteCursor record(content);
-    const auto channel = record.take<std::uint16_t>();
-    record.take<std::uint32_t>();
-    const auto log_time = record.take<std::uint64_t>();
-    record.take<std::uint64_t>();
-    if (!record.ok()) return Taken::other;
+  Taken give_message(const McapMessage& found, bool lost, Message& message) {
     index_.met_message();
-    const int topic = channels_.topic_of(channel);
-    if (topic >= 0) records_.met_time(log_time);
-    return give({topic, static_cast<std::int64_t>(log_time), record.rest(), lost}, "channel", channel,
+    const int topic = channels_.topic_of(found.channel);
+    if (topic >= 0) records_.met_time(found.time_ns);
+    return give({topic, static_cast<std::int64_t>(found.time_ns), found.data, lost}, "channel", found.channel,
                 message);
   }
 

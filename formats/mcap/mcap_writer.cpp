@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -37,33 +38,25 @@ constexpr double kMostSeconds = 2147483647.0;
 /// Levels of foxglove.Log.
 constexpr int kInfo = 2, kError = 4;
 
+/// Positions, velocities and efforts of joints; null for signals that there are not.
+using StateSignals = std::array<const JointSignals*, 3>;
+
 /// A topic of joint states, and the signals of a log that it holds.
 struct StatesTopic {
   const char* name;
-  const JointSignals Log::*position;
-  const JointSignals Log::*velocity;
-  const JointSignals Log::*effort;
+  std::array<const JointSignals Log::*, 3> members;
+
+  StateSignals signals_of(const Log& log) const {
+    StateSignals signals{};
+    for (std::size_t a = 0; a < members.size(); ++a)
+      if (members[a] && !(log.*members[a]).empty()) signals[a] = &(log.*members[a]);
+    return signals;
+  }
 };
-const JointSignals Log::*const kNothing = nullptr;
 /// Commands come before the states of the same time, so that they are available when the states are read.
-const StatesTopic kTopics[] = {{kCommandsTopic, &Log::q_ref, &Log::dq_ref, &Log::tau_ref},
-                               {kMeasuredTopic, kNothing, kNothing, &Log::tau_meas},
-                               {kStatesTopic, &Log::q, &Log::dq, &Log::tau}};
-
-const JointSignals& signals(const Log& log, const JointSignals Log::*member) {
-  static const JointSignals none;
-  return member ? log.*member : none;
-}
-
-bool has(const Log& log, const StatesTopic& topic) {
-  return !signals(log, topic.position).empty() || !signals(log, topic.velocity).empty() ||
-         !signals(log, topic.effort).empty();
-}
-
-void take_row(const JointSignals& values, std::size_t row, std::vector<double>& out) {
-  out.clear();
-  for (const std::vector<double>& joint : values) out.push_back(joint[row]);
-}
+const StatesTopic kTopics[] = {{kCommandsTopic, {&Log::q_ref, &Log::dq_ref, &Log::tau_ref}},
+                               {kMeasuredTopic, {nullptr, nullptr, &Log::tau_meas}},
+                               {kStatesTopic, {&Log::q, &Log::dq, &Log::tau}}};
 
 std::vector<std::string> joint_names(int joints) {
   std::vector<std::string> names;
@@ -168,7 +161,7 @@ class McapWriter : public McapRecording {
   void begin(const Log& log) {
     states_.emplace(joint_names(log.joints()));
     for (const StatesTopic& topic : kTopics)
-      channels_.push_back(has(log, topic) ? add_topic(topic.name) : std::uint16_t{0});
+      channels_.push_back(topic.signals_of(log) == StateSignals{} ? std::uint16_t{0} : add_topic(topic.name));
     if (log.extra.empty()) return;
     extra_.emplace(extra_names(log));
     extra_channel_ = add_topic(kExtraTopic);
@@ -184,10 +177,7 @@ class McapWriter : public McapRecording {
       auto channel = computed_channels_.find(computed.topic);
       if (channel == computed_channels_.end())
         channel = computed_channels_.emplace(computed.topic, add_topic(computed.topic)).first;
-      take_row(computed.position, at, row_.position);
-      take_row(computed.velocity, at, row_.velocity);
-      take_row(computed.effort, at, row_.effort);
-      put(*states_, channel->second, stamp);
+      put_states(channel->second, stamp, {&computed.position, &computed.velocity, &computed.effort}, at);
     }
   }
 
@@ -195,16 +185,21 @@ class McapWriter : public McapRecording {
     const std::int64_t stamp = stamp_of(log.time[row]);
     if (extra_) {
       row_ = {};
-      for (const ExtraChannel& extra : log.extra) row_.position.push_back(extra.values[row]);
+      for (const ExtraChannel& extra : log.extra) row_[0].push_back(extra.values[row]);
       put(*extra_, extra_channel_, stamp);
     }
-    for (std::size_t i = 0; i < std::size(kTopics); ++i) {
-      if (channels_[i] == 0) continue;
-      take_row(signals(log, kTopics[i].position), row, row_.position);
-      take_row(signals(log, kTopics[i].velocity), row, row_.velocity);
-      take_row(signals(log, kTopics[i].effort), row, row_.effort);
-      put(*states_, channels_[i], stamp);
+    for (std::size_t i = 0; i < std::size(kTopics); ++i)
+      if (channels_[i] != 0)
+        put_states(channels_[i], stamp, kTopics[i].signals_of(log), static_cast<std::size_t>(row));
+  }
+
+  void put_states(std::uint16_t channel, std::int64_t stamp, const StateSignals& signals, std::size_t row) {
+    for (std::size_t a = 0; a < signals.size(); ++a) {
+      row_[a].clear();
+      if (signals[a])
+        for (const std::vector<double>& joint : *signals[a]) row_[a].push_back(joint[row]);
     }
+    put(*states_, channel, stamp);
   }
 
   /// Converts a time of the log to ns.

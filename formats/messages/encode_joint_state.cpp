@@ -49,9 +49,7 @@ void JointStateEncoder::append(std::int64_t stamp_ns, const JointRow& row, std::
   put_number(out, static_cast<std::uint32_t>(stamp_ns / kStateSecond));
   put_number(out, static_cast<std::uint32_t>(stamp_ns % kStateSecond));
   out.append(names_);
-  append_numbers(out, begin, row.position);
-  append_numbers(out, begin, row.velocity);
-  append_numbers(out, begin, row.effort);
+  for (const std::vector<double>& values : row) append_numbers(out, begin, values);
 }
 
 }  // namespace faultline

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace faultline {
 
-/// One row of the values of joints; an array that the log lacks is empty.
-struct JointRow {
-  std::vector<double> position, velocity, effort;
-};
+/// Positions, velocities and efforts of joints in one row; an array that the log lacks is empty.
+using JointRow = std::array<std::vector<double>, 3>;
 
 /// Writes sensor_msgs/JointState messages of ROS 2 as little-endian CDR.
 class JointStateEncoder {

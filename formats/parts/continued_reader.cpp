@@ -125,9 +125,9 @@ class ContinuedReader : public RawReader {
   }
 
   void finish() {
-    Sha256 all;
-    for (const auto& file : files_) all.update(file->identity().sha256);
-    identity_.sha256 = all.hex();
+    std::string hashes;
+    for (const auto& file : files_) hashes += file->identity().sha256;
+    identity_.sha256 = sha256_hex(hashes);
   }
 
   std::vector<std::unique_ptr<RawReader>> files_;

@@ -184,16 +184,6 @@ class Partner {
   std::int64_t without_ = 0, between_ = 0, asked_ = 0, passed_ = 0;
 };
 
-/// Returns one hash for several files; empty until all are known.
-std::string hash_of_hashes(const std::vector<std::string>& hashes) {
-  Sha256 all;
-  for (const std::string& hash : hashes) {
-    if (hash.empty()) return "";
-    all.update(hash);
-  }
-  return all.hex();
-}
-
 class JoinedReader : public RawReader {
  public:
   JoinedReader(std::unique_ptr<RawReader> first, std::vector<std::unique_ptr<RawReader>> others, JoinBy by)
@@ -290,15 +280,15 @@ class JoinedReader : public RawReader {
   }
 
   void finish() {
-    std::vector<std::string> hashes{first_->identity().sha256};
+    std::string hashes = first_->identity().sha256;
     RawBlock rest;
     for (Joined& joined : joined_) {
       joined.partner.read_rest();
-      while (joined.partner.reader().next(rest, 4096)) {
+      while (joined.partner.reader().next(rest, kPartnerRowsAtOnce)) {
       }
-      hashes.push_back(joined.partner.reader().identity().sha256);
+      hashes += joined.partner.reader().identity().sha256;
     }
-    identity_.sha256 = hash_of_hashes(hashes);
+    identity_.sha256 = sha256_hex(hashes);
   }
 
   std::unique_ptr<RawReader> first_;

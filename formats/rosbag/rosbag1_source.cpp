@@ -67,29 +67,22 @@ class Rosbag1Fields {
   std::string_view header_;
 };
 
-/// A record at the front of `bytes`: a header and its data, each after its length.
+/// A record: a header and its data, each after its length.
 struct Rosbag1Record {
   Rosbag1Fields fields{""};
-  std::string_view data;
-  std::size_t size = 0;  ///< of the whole record; 0 when it is incomplete
+  std::string_view data;   ///< as far as they are in view
+  std::uint64_t size = 0;  ///< of the whole record, in view or not; 0 when the length of its data is not
 };
 
+/// Returns the record at the front of `bytes`.
 Rosbag1Record rosbag1_record(std::string_view bytes) {
   ByteCursor record(bytes);
   Rosbag1Record found;
   found.fields = Rosbag1Fields(record.text());
-  found.data = record.text();
-  found.size = record.ok() ? record.position() : 0;
-  return found;
-}
-
-/// Returns the bytes of the record at the front of `bytes`, which need not be all in view; 0 when the length
-/// of its data is not in view.
-std::uint64_t rosbag1_record_size(std::string_view bytes) {
-  ByteCursor record(bytes);
-  record.text();
   const std::uint64_t data = record.take<std::uint32_t>();
-  return record.ok() ? record.position() + data : 0;
+  found.data = record.rest().substr(0, data);
+  found.size = record.ok() ? record.position() + data : 0;
+  return found;
 }
 
 /// Returns the position of a record of at most `left` bytes whose header has the operation at `at`; npos for
@@ -100,9 +93,8 @@ std::size_t rosbag1_record_before(std::string_view bytes, std::size_t at, std::u
     const std::string_view candidate = bytes.substr(at - back);
     const auto header = ByteCursor(candidate).take<std::uint32_t>();
     if (header < back || header > kFarthest) continue;
-    const Rosbag1Fields fields(candidate.substr(sizeof header, header));
-    const std::uint64_t size = rosbag1_record_size(candidate);
-    if (fields.has_op() && size > 0 && size <= left) return at - back;
+    const Rosbag1Record record = rosbag1_record(candidate);
+    if (record.fields.has_op() && record.size > 0 && record.size <= left) return at - back;
   }
   return std::string_view::npos;
 }
@@ -135,8 +127,8 @@ class Rosbag1Source : public ChunkedSource {
     if (!window_.fill(sizeof(std::uint32_t))) return 0;
     const auto header = ByteCursor(window_.view()).take<std::uint32_t>();
     if (header > kSourceLongestHeader || !window_.fill(header + kLeastRecord)) return 0;
-    if (!Rosbag1Fields(window_.view().substr(sizeof header, header)).has_op()) return 0;
-    return rosbag1_record_size(window_.view());
+    const Rosbag1Record record = rosbag1_record(window_.view());
+    return record.fields.has_op() ? record.size : 0;
   }
 
   Taken next_record(Message& message) override {
@@ -158,7 +150,7 @@ class Rosbag1Source : public ChunkedSource {
       return find_record();
     }
     record_size_ = std::min<std::uint64_t>(size, window_.view().size());
-    return take(window_.view().substr(0, record_size_), whole, message);
+    return take(rosbag1_record(window_.view()), whole, message);
   }
 
   /// Skips the mark at which a bag begins. One appended to another has connection numbers of its own.
@@ -181,10 +173,7 @@ class Rosbag1Source : public ChunkedSource {
     return found == topics_of_[recordings_ - 1].end() ? -1 : found->second;
   }
 
-  bool is_chunk() {
-    const auto header = ByteCursor(window_.view()).text();
-    return Rosbag1Fields(header).op() == Rosbag1Op::chunk;
-  }
+  bool is_chunk() const { return rosbag1_record(window_.view()).fields.op() == Rosbag1Op::chunk; }
 
   /// Moves past damaged bytes to the next plausible record.
   Taken find_record() {
@@ -218,10 +207,8 @@ class Rosbag1Source : public ChunkedSource {
     return found ? Taken::other : Taken::nothing;
   }
 
-  Taken take(std::string_view bytes, bool whole, Message& message) {
-    const auto header = ByteCursor(bytes).text();
-    const Rosbag1Fields fields(header);
-    const std::string_view data = bytes.substr(header.size() + kLeastRecord);
+  Taken take(const Rosbag1Record& record, bool whole, Message& message) {
+    const auto& [fields, data, size] = record;
     switch (fields.op()) {
       case Rosbag1Op::connection:
         add_connection(fields, data);
@@ -270,7 +257,7 @@ class Rosbag1Source : public ChunkedSource {
   Taken next_inside(Message& message) override {
     if (inside_.empty()) return Taken::nothing;
     const Rosbag1Record record = rosbag1_record(inside_);
-    if (record.size == 0 || !record.fields.has_op()) {
+    if (record.size == 0 || record.size > inside_.size() || !record.fields.has_op()) {
       if (!is_lossy()) lose_chunk("the records in it are damaged; those before the damage are read", false);
       inside_ = {};
       return Taken::other;

@@ -44,9 +44,9 @@ void write_plain_mcap(const std::string& path, const Log& log) {
   for (int i = 0; i < log.rows(); ++i) {
     JointRow row;
     for (int j = 0; j < kJoints; ++j) {
-      row.position.push_back(log.q[j][i]);
-      row.velocity.push_back(log.dq[j][i]);
-      row.effort.push_back(log.tau[j][i]);
+      row[0].push_back(log.q[j][i]);
+      row[1].push_back(log.dq[j][i]);
+      row[2].push_back(log.tau[j][i]);
     }
     message.clear();
     const std::int64_t stamp = 1'000'000LL * i;
