@@ -8,13 +8,6 @@
 namespace faultline {
 namespace {
 
-/// All dimensions of a dataset, and those that its shape keeps.
-struct Hdf5Shape {
-  std::vector<hsize_t> dimensions;
-  std::vector<std::size_t> kept;
-  std::vector<std::int64_t> shape;
-};
-
 constexpr double kStorageMostExpansion = 1100.0;  ///< upper limit of the compression ratio of a filter
 constexpr double kLeastChunk = 1 << 20;           ///< bytes that a chunk may take in any file
 constexpr hsize_t kMostListed = 4096;             ///< chunks that are queried one by one
@@ -44,58 +37,6 @@ bool has_filters(hid_t creation) {
   return count >= 0;
 }
 
-/// Returns the end of the written chunks along each kept dimension, if some are missing.
-std::vector<std::int64_t> written_part(hid_t dataset, hid_t space, const Hdf5Shape& shape,
-                                       const std::vector<std::int64_t>& chunk, hsize_t written) {
-  const auto part = [&](std::size_t i, hsize_t end) {
-    return std::min(shape.shape[i], static_cast<std::int64_t>(std::min(end, kMostPlaces)));
-  };
-  std::vector<std::int64_t> held(shape.shape.size(), 0);
-  for (std::size_t i = 0; i < held.size() && written > kMostListed; ++i)
-    held[i] = part(
-        i, std::min(written, kMostPlaces / static_cast<hsize_t>(chunk[i])) * static_cast<hsize_t>(chunk[i]));
-  for (hsize_t index = 0; index < written && written <= kMostListed; ++index) {
-    std::vector<hsize_t> at(shape.dimensions.size());
-    unsigned mask = 0;
-    haddr_t address = 0;
-    hsize_t size = 0;
-    if (H5Dget_chunk_info(dataset, space, index, at.data(), &mask, &address, &size) < 0) continue;
-    for (std::size_t i = 0; i < held.size(); ++i)
-      held[i] = std::max(held[i],
-                         part(i, std::min(at[shape.kept[i]], kMostPlaces) + static_cast<hsize_t>(chunk[i])));
-  }
-  return held;
-}
-
-std::optional<Hdf5Storage> chunk_storage(hid_t dataset, hid_t creation, const Hdf5Shape& shape,
-                                         double file_bytes, std::string& why) {
-  Hdf5Storage storage;
-  std::vector<hsize_t> chunk(shape.dimensions.size());
-  hsize_t written = 0;
-  const Hdf5Id space(H5Dget_space(dataset), H5Sclose), type(H5Dget_type(dataset), H5Tclose);
-  if (H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) < 0 ||
-      H5Dget_num_chunks(dataset, space, &written) < 0) {
-    why = "the index of its chunks is damaged";
-    return std::nullopt;
-  }
-  double bytes = static_cast<double>(H5Tget_size(type)), chunks = 1.0;
-  for (const hsize_t size : chunk) bytes *= static_cast<double>(size);
-  if (bytes > kStorageMostExpansion * file_bytes + kLeastChunk) {
-    why = "its chunks are larger than the file could hold";
-    return std::nullopt;
-  }
-  storage.chunk_bytes = static_cast<std::int64_t>(bytes);
-  for (std::size_t i = 0; i < shape.kept.size(); ++i) {
-    storage.chunk.push_back(static_cast<std::int64_t>(std::max<hsize_t>(1, chunk[shape.kept[i]])));
-    chunks *= std::ceil(static_cast<double>(shape.shape[i]) / static_cast<double>(storage.chunk[i]));
-  }
-  storage.has_holes = static_cast<double>(written) < chunks;
-  storage.unwritten = written == 0;
-  storage.held =
-      storage.has_holes ? written_part(dataset, space, shape, storage.chunk, written) : shape.shape;
-  return storage;
-}
-
 constexpr std::int64_t kMostNumbers = 1 << 14;  ///< of a record
 constexpr std::int64_t kMostElements = std::int64_t{1} << 53;
 constexpr std::int64_t kBlockNumbers = 1 << 20;  ///< read at once
@@ -103,37 +44,6 @@ constexpr std::int64_t kBlockNumbers = 1 << 20;  ///< read at once
 bool is_number(hid_t type) {
   const H5T_class_t kind = H5Tget_class(type);
   return kind == H5T_INTEGER || kind == H5T_FLOAT;
-}
-
-/// Returns nullopt, with `why`, when the elements cannot be read.
-std::optional<Hdf5Storage> hdf5_storage(hid_t dataset, const Hdf5Shape& shape, std::int64_t file_bytes,
-                                        std::string& why) {
-  const Hdf5Id creation(H5Dget_create_plist(dataset), H5Pclose), type(H5Dget_type(dataset), H5Tclose);
-  if (H5Pget_external_count(creation) > 0) {
-    why = "its numbers are in another file, which is not read";
-    return std::nullopt;
-  }
-  if (!has_filters(creation)) {
-    why = "its compression is not gzip, the only one that this reader knows; write it again with gzip";
-    return std::nullopt;
-  }
-  const H5D_layout_t layout = H5Pget_layout(creation);
-  if (layout == H5D_CHUNKED)
-    return chunk_storage(dataset, creation, shape, static_cast<double>(file_bytes), why);
-  if (layout != H5D_COMPACT && layout != H5D_CONTIGUOUS) {
-    why =
-        "it has a layout that cannot be read, such as that of a virtual dataset; copy it into an ordinary "
-        "dataset";
-    return std::nullopt;
-  }
-  const haddr_t at = layout == H5D_COMPACT ? 0 : H5Dget_offset(dataset);
-  const bool in_file = at != HADDR_UNDEF && at < static_cast<haddr_t>(file_bytes);
-  const std::int64_t bytes = in_file ? file_bytes - static_cast<std::int64_t>(at) : 0;
-  const auto item = static_cast<std::int64_t>(std::max<std::size_t>(1, H5Tget_size(type)));
-  Hdf5Storage storage;
-  storage.elements_held = std::min(elements_of(shape.shape), bytes / item);
-  storage.unwritten = at == HADDR_UNDEF;
-  return storage;
 }
 
 }  // namespace
@@ -149,12 +59,80 @@ std::optional<Hdf5Dataset> Hdf5Dataset::open(hid_t file, const std::string& path
   const Hdf5Id type(H5Dget_type(opened.dataset_), H5Tclose);
   if (!type.ok() || !opened.find_fields(type) || !opened.find_shape()) return std::nullopt;
   if (opened.shape_.size() > 2) return opened;  // only its shape is reported
-  const auto storage =
-      hdf5_storage(opened.dataset_, {opened.dimensions_, opened.kept_, opened.shape_}, file_bytes, why);
-  if (!storage) return std::nullopt;
-  opened.storage_ = *storage;
+  why = opened.find_storage(file_bytes);
+  if (!why.empty()) return std::nullopt;
   opened.path_ = path;
   return opened;
+}
+
+std::vector<std::int64_t> Hdf5Dataset::shape() const {
+  if (!turned_) return shape_;
+  return {shape_.rbegin(), shape_.rend()};
+}
+
+/// Finds how the elements are stored; returns the reason when they cannot be read, else an empty text.
+const char* Hdf5Dataset::find_storage(std::int64_t file_bytes) {
+  const Hdf5Id creation(H5Dget_create_plist(dataset_), H5Pclose), type(H5Dget_type(dataset_), H5Tclose);
+  if (H5Pget_external_count(creation) > 0) return "its numbers are in another file, which is not read";
+  if (!has_filters(creation))
+    return "its compression is not gzip, the only one that this reader knows; write it again with gzip";
+  const auto item = static_cast<std::int64_t>(H5Tget_size(type));
+  const H5D_layout_t layout = H5Pget_layout(creation);
+  if (layout == H5D_CHUNKED)
+    return find_chunks(creation, static_cast<double>(item), static_cast<double>(file_bytes));
+  if (layout != H5D_COMPACT && layout != H5D_CONTIGUOUS)
+    return "it has a layout that cannot be read, such as that of a virtual dataset; copy it into an ordinary "
+           "dataset";
+  const haddr_t at = layout == H5D_COMPACT ? 0 : H5Dget_offset(dataset_);
+  const bool in_file = at != HADDR_UNDEF && at < static_cast<haddr_t>(file_bytes);
+  const std::int64_t bytes = in_file ? file_bytes - static_cast<std::int64_t>(at) : 0;
+  storage_.elements_held = std::min(elements_of(shape_), bytes / std::max<std::int64_t>(1, item));
+  storage_.unwritten = at == HADDR_UNDEF;
+  return "";
+}
+
+/// Does the same for a dataset in chunks, whose elements take `item_bytes` each.
+const char* Hdf5Dataset::find_chunks(hid_t creation, double item_bytes, double file_bytes) {
+  std::vector<hsize_t> chunk(dimensions_.size());
+  hsize_t written = 0;
+  const Hdf5Id space(H5Dget_space(dataset_), H5Sclose);
+  if (H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) < 0 ||
+      H5Dget_num_chunks(dataset_, space, &written) < 0)
+    return "the index of its chunks is damaged";
+  double bytes = item_bytes, chunks = 1.0;
+  for (const hsize_t size : chunk) bytes *= static_cast<double>(size);
+  if (bytes > kStorageMostExpansion * file_bytes + kLeastChunk)
+    return "its chunks are larger than the file could hold";
+  storage_.chunk_bytes = static_cast<std::int64_t>(bytes);
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    storage_.chunk.push_back(static_cast<std::int64_t>(std::max<hsize_t>(1, chunk[kept_[i]])));
+    chunks *= std::ceil(static_cast<double>(shape_[i]) / static_cast<double>(storage_.chunk[i]));
+  }
+  storage_.has_holes = static_cast<double>(written) < chunks;
+  storage_.unwritten = written == 0;
+  storage_.held = storage_.has_holes ? written_part(space, written) : shape_;
+  return "";
+}
+
+/// Returns the end of the written chunks along each kept dimension, if some are missing.
+std::vector<std::int64_t> Hdf5Dataset::written_part(hid_t space, hsize_t written) const {
+  const auto part = [&](std::size_t i, hsize_t end) {
+    return std::min(shape_[i], static_cast<std::int64_t>(std::min(end, kMostPlaces)));
+  };
+  const auto chunk = [&](std::size_t i) { return static_cast<hsize_t>(storage_.chunk[i]); };
+  std::vector<std::int64_t> held(shape_.size(), 0);
+  for (std::size_t i = 0; i < held.size() && written > kMostListed; ++i)
+    held[i] = part(i, std::min(written, kMostPlaces / chunk(i)) * chunk(i));
+  for (hsize_t index = 0; index < written && written <= kMostListed; ++index) {
+    std::vector<hsize_t> at(dimensions_.size());
+    unsigned mask = 0;
+    haddr_t address = 0;
+    hsize_t size = 0;
+    if (H5Dget_chunk_info(dataset_, space, index, at.data(), &mask, &address, &size) < 0) continue;
+    for (std::size_t i = 0; i < held.size(); ++i)
+      held[i] = std::max(held[i], part(i, std::min(at[kept_[i]], kMostPlaces) + chunk(i)));
+  }
+  return held;
 }
 
 bool Hdf5Dataset::find_shape() {
@@ -176,26 +154,28 @@ bool Hdf5Dataset::find_shape() {
   return shape_.size() == 1 || fields_[0].name.empty();
 }
 
+/// Adds a member of a record of numbers, unless it holds anything else; false when the library fails.
 bool Hdf5Dataset::add_member(hid_t type, unsigned index) {
   const Hdf5Id member(H5Tget_member_type(type, index), H5Tclose);
-  Hdf5Id number(H5Tcopy(member), H5Tclose);
+  Hdf5Id number(H5Tcopy(member), H5Tclose), read_as(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose);
   std::int64_t width = 1;
-  if (H5Tget_class(member) == H5T_ARRAY) {
-    hsize_t size[H5S_MAX_RANK];
-    const int rank = H5Tget_array_ndims(member);
-    if (rank < 1 || H5Tget_array_dims2(member, size) < 0) return false;
-    for (int i = 0; i < rank; ++i)
-      width *= static_cast<std::int64_t>(std::min<hsize_t>(size[i], kMostNumbers));
-    number = {H5Tget_super(member), H5Tclose};
-  }
-  char* name = H5Tget_member_name(type, index);
-  const bool fits = name && is_number(number) && static_cast<std::int64_t>(numbers_) + width <= kMostNumbers;
-  if (fits) {
+  const bool is_array = H5Tget_class(member) == H5T_ARRAY;
+  const int rank = is_array ? H5Tget_array_ndims(member) : 0;
+  hsize_t size[H5S_MAX_RANK] = {};
+  if (is_array && (rank < 1 || H5Tget_array_dims2(member, size) < 0)) return true;
+  for (int i = 0; i < rank; ++i) width *= static_cast<std::int64_t>(std::min<hsize_t>(size[i], kMostNumbers));
+  if (is_array) number = {H5Tget_super(member), H5Tclose};
+  char* const name = H5Tget_member_name(type, index);
+  bool good = true;
+  if (name && is_number(number) && static_cast<std::int64_t>(numbers_) + width <= kMostNumbers) {
+    if (is_array)
+      read_as = {H5Tarray_create2(H5T_NATIVE_DOUBLE, static_cast<unsigned>(rank), size), H5Tclose};
+    good = H5Tinsert(memory_type_, name, numbers_ * sizeof(double), read_as) >= 0;
     fields_.push_back({name, numbers_, width});
     numbers_ += static_cast<std::size_t>(width);
   }
   H5free_memory(name);
-  return fits;
+  return good;
 }
 
 /// Finds the fields, and the memory type by which elements are read: all numbers as doubles.
@@ -207,24 +187,11 @@ bool Hdf5Dataset::find_fields(hid_t type) {
   }
   if (H5Tget_class(type) != H5T_COMPOUND) return false;
   numbers_ = 0;
+  memory_type_ = {H5Tcreate(H5T_COMPOUND, kMostNumbers * sizeof(double)), H5Tclose};
   const int members = H5Tget_nmembers(type);
-  for (int i = 0; i < members; ++i) add_member(type, static_cast<unsigned>(i));
-  if (numbers_ == 0) return false;
-  memory_type_ = {H5Tcreate(H5T_COMPOUND, numbers_ * sizeof(double)), H5Tclose};
-  for (const Hdf5Field& field : fields_) {
-    const hid_t member =
-        H5Tget_member_type(type, static_cast<unsigned>(H5Tget_member_index(type, field.name.c_str())));
-    const Hdf5Id given(member, H5Tclose);
-    Hdf5Id read_as(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose);
-    if (H5Tget_class(given) == H5T_ARRAY) {
-      hsize_t size[H5S_MAX_RANK];
-      H5Tget_array_dims2(given, size);
-      read_as = {H5Tarray_create2(H5T_NATIVE_DOUBLE, static_cast<unsigned>(H5Tget_array_ndims(given)), size),
-                 H5Tclose};
-    }
-    if (H5Tinsert(memory_type_, field.name.c_str(), field.at * sizeof(double), read_as) < 0) return false;
-  }
-  return true;
+  for (int i = 0; i < members; ++i)
+    if (!add_member(type, static_cast<unsigned>(i))) return false;
+  return numbers_ > 0 && H5Tset_size(memory_type_, numbers_ * sizeof(double)) >= 0;
 }
 
 std::int64_t Hdf5Dataset::row_chunk_bytes(bool channel_major) const {
@@ -242,16 +209,17 @@ void Hdf5Dataset::set_chunk_cache(hid_t file, std::int64_t bytes) {
 }
 
 std::int64_t Hdf5Dataset::rows_held(bool channel_major) const {
-  const std::int64_t rows = shape_[axis(channel_major)];
-  if (!storage_.chunk.empty()) return storage_.held[axis(channel_major)];
-  if (shape_.size() < 2 || elements_of(shape_) == 0) return std::min(rows, storage_.elements_held);
-  return channel_major ? std::min(rows, storage_.elements_held) : storage_.elements_held / shape_[1];
+  const std::size_t along = axis(channel_major);
+  if (!storage_.chunk.empty()) return storage_.held[along];
+  if (shape_.size() < 2 || along == 1 || elements_of(shape_) == 0)
+    return std::min(shape_[along], storage_.elements_held);
+  return storage_.elements_held / shape_[1];
 }
 
 std::int64_t Hdf5Dataset::columns_held(bool channel_major) const {
   if (shape_.size() < 2) return fields_[0].name.empty() ? 1 : std::numeric_limits<std::int64_t>::max();
-  const std::int64_t columns = shape_[channel_major ? 0 : 1];
-  if (!storage_.chunk.empty() || !channel_major || elements_of(shape_) == 0) return columns;
+  const std::size_t along = axis(channel_major);
+  if (!storage_.chunk.empty() || along == 0 || elements_of(shape_) == 0) return shape_[1 - along];
   return std::max<std::int64_t>(storage_.elements_held / shape_[1], storage_.elements_held > 0 ? 1 : 0);
 }
 
@@ -294,7 +262,7 @@ bool Hdf5Dataset::read_block(bool channel_major, std::int64_t first, std::int64_
 /// Reads rows, all in one row of chunks if some chunks are missing; true on success.
 bool Hdf5Dataset::read_rows(const Hdf5Field& field, const ArrayBand& band, std::int64_t first,
                             std::int64_t rows, BandValues& values) {
-  const bool matrix = shape_.size() > 1, by_columns = matrix && band.channel_major;
+  const bool matrix = shape_.size() > 1, by_columns = axis(band.channel_major) == 1;
   const std::int64_t low = matrix ? band.columns.front() : 0;
   const std::int64_t columns = matrix ? band.columns.back() - low + 1 : static_cast<std::int64_t>(numbers_);
   const bool known = !field.name.empty() && block_first_ == first && block_rows_ == rows;

@@ -38,7 +38,10 @@ class Hdf5Dataset {
   static std::optional<Hdf5Dataset> open(hid_t file, const std::string& path, std::int64_t file_bytes,
                                          std::string& why);
 
-  const std::vector<std::int64_t>& shape() const { return shape_; }  ///< without surplus dimensions of one
+  /// The shape without surplus dimensions of one, turned if turn() was called.
+  std::vector<std::int64_t> shape() const;
+  /// Exchanges the dimensions of a matrix in shape() and in all bands.
+  void turn() { turned_ = true; }
   const std::vector<Hdf5Field>& fields() const { return fields_; }
   std::vector<Hdf5Field>& fields() { return fields_; }
   std::int64_t rows_held(bool channel_major) const;
@@ -56,6 +59,9 @@ class Hdf5Dataset {
  private:
   Hdf5Dataset() = default;
   bool find_shape();
+  const char* find_storage(std::int64_t file_bytes);
+  const char* find_chunks(hid_t creation, double item_bytes, double file_bytes);
+  std::vector<std::int64_t> written_part(hid_t space, hsize_t written) const;
   bool find_fields(hid_t type);
   bool add_member(hid_t type, unsigned index);
   bool read_block(bool channel_major, std::int64_t first, std::int64_t rows, std::int64_t column,
@@ -65,13 +71,15 @@ class Hdf5Dataset {
   void read_by_chunks(const Hdf5Field& field, const ArrayBand& band, std::int64_t first, std::int64_t rows,
                       BandValues& values);
   bool is_written(bool channel_major, std::int64_t first) const;
-  std::size_t axis(bool channel_major) const { return channel_major && shape_.size() > 1 ? 1 : 0; }
+  /// The dimension of shape_ that the rows are along.
+  std::size_t axis(bool channel_major) const { return shape_.size() > 1 && channel_major != turned_ ? 1 : 0; }
 
   std::string path_;
   Hdf5Id dataset_, memory_type_;
   std::vector<hsize_t> dimensions_;  ///< all of them
   std::vector<std::size_t> kept_;    ///< indices of those in shape_
-  std::vector<std::int64_t> shape_;
+  std::vector<std::int64_t> shape_;  ///< as it is stored
+  bool turned_ = false;
   std::vector<Hdf5Field> fields_;
   std::size_t numbers_ = 1;  ///< of an element
   Hdf5Storage storage_;

@@ -94,8 +94,7 @@ class Hdf5Arrays : public ArrayFile {
     std::map<std::size_t, std::int64_t> bytes_of;
     for (const ArrayBand& band : bands) {
       const std::size_t dataset = sources_[band.array].first;
-      const bool turned = band.channel_major != is_turned(datasets_[dataset]);
-      bytes_of[dataset] = datasets_[dataset].row_chunk_bytes(turned);
+      bytes_of[dataset] = datasets_[dataset].row_chunk_bytes(band.channel_major);
     }
     std::int64_t all = 0;
     for (const auto& [dataset, bytes] : bytes_of) all += bytes;
@@ -115,9 +114,7 @@ class Hdf5Arrays : public ArrayFile {
   void read(const ArrayBand& band, BandValues& values) override {
     const Hdf5Turn turn;
     const auto& [dataset, field] = sources_[band.array];
-    ArrayBand mine = band;
-    mine.channel_major = band.channel_major != is_turned(datasets_[dataset]);
-    datasets_[dataset].read(datasets_[dataset].fields()[field], mine, values);
+    datasets_[dataset].read(datasets_[dataset].fields()[field], band, values);
   }
 
   /// Reads the first and the last row of each dataset that is part of the log.
@@ -139,8 +136,6 @@ class Hdf5Arrays : public ArrayFile {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
   }
-
-  bool is_turned(const Hdf5Dataset& dataset) const { return matlab_ && dataset.shape().size() > 1; }
 
   void open() {
     const Hdf5Turn turn;
@@ -180,6 +175,7 @@ class Hdf5Arrays : public ArrayFile {
     }
     if (matlab_ && with_attributes_ && is_text_of_matlab(dataset->id())) return;
     if (with_attributes_ && described_bytes_ <= kMostDescription) describe(path, *dataset);
+    if (matlab_) dataset->turn();
     datasets_.push_back(std::move(*dataset));
     const std::size_t index = datasets_.size() - 1;
     for (std::size_t field = 0; field < datasets_[index].fields().size(); ++field)
@@ -202,24 +198,18 @@ class Hdf5Arrays : public ArrayFile {
 
   void add_array(const std::string& path, std::size_t index, std::size_t field) {
     const Hdf5Field& about = datasets_[index].fields()[field];
-    const bool turned = is_turned(datasets_[index]);
     NamedArray array;
     array.name = about.name.empty() ? path.substr(1) : path.substr(1) + "/" + about.name;
     if (matlab_) array.name = matlab_(array.name);
     array.shape = datasets_[index].shape();
-    if (turned) std::reverse(array.shape.begin(), array.shape.end());
     if (about.width > 1) array.shape.push_back(about.width);
     array.unit = about.unit;
     array.unwritten = datasets_[index].unwritten();
     array.records = !about.name.empty();
     array.names = about.names;
     array.units = about.units;
-    array.rows_held = [this, index, turned](bool channel_major) {
-      return datasets_[index].rows_held(channel_major != turned);
-    };
-    array.columns_held = [this, index, turned](bool channel_major) {
-      return datasets_[index].columns_held(channel_major != turned);
-    };
+    array.rows_held = [this, index](bool by_columns) { return datasets_[index].rows_held(by_columns); };
+    array.columns_held = [this, index](bool by_columns) { return datasets_[index].columns_held(by_columns); };
     arrays_.push_back(std::move(array));
     sources_.emplace_back(index, field);
   }
