@@ -76,12 +76,12 @@ struct BandValues {
 class ArrayFile {
  public:
   virtual ~ArrayFile() = default;
-  virtual const std::vector<NamedArray>& arrays() const = 0;
+  const std::vector<NamedArray>& arrays() const { return arrays_; }
   /// Arrays and parts that were skipped when the file was opened, and damage found while reading; complete
   /// only after the last row.
-  virtual const Issues& issues() const = 0;
+  const Issues& issues() const { return issues_; }
   /// The text of notes_text() if a log was written to the file, else empty.
-  virtual std::string notes() const = 0;
+  const std::string& notes() const { return notes_; }
   /// Announces the arrays that read() will be called for. Throws Error(input) when they cannot be read in
   /// bounded memory.
   virtual void will_read(const std::vector<ArrayBand>&) {}
@@ -89,6 +89,11 @@ class ArrayFile {
   virtual void read(const ArrayBand& band, BandValues& values) = 0;
   /// Makes the checks that need the whole file, such as checksums.
   virtual void finish() {}
+
+ protected:
+  std::vector<NamedArray> arrays_;
+  Issues issues_;
+  std::string notes_;
 };
 
 /// Opens the file at the path. Throws Error(input) when it cannot be read at all.
@@ -99,5 +104,11 @@ using OpenArrays = std::unique_ptr<ArrayFile> (*)(const std::string& path);
 /// read. Throws Error(input) when it holds no array, cannot be read at all, or is a pipe.
 std::unique_ptr<RawReader> read_arrays(std::unique_ptr<ByteSource> bytes, const std::string& format,
                                        OpenArrays open);
+
+/// Converts the path of a dataset to the name that MATLAB shows; MATLAB stores matrices transposed.
+using MatlabNaming = std::string (*)(const std::string& path);
+
+/// Opens the datasets of an HDF5 file; `matlab` is null for an ordinary file.
+std::unique_ptr<ArrayFile> open_hdf5_arrays(const std::string& path, MatlabNaming matlab);
 
 }  // namespace faultline

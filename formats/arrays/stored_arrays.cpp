@@ -94,10 +94,15 @@ std::vector<std::int64_t> packed_strides(const std::vector<std::int64_t>& shape,
 }
 
 StoredArrays::StoredArrays(std::unique_ptr<RandomFile> file, StoredList list)
-    : file_(std::move(file)), list_(std::move(list)), memory_left_(kMostUnpacked) {
-  for (const StoredArray& stored : list_.arrays) {
+    : file_(std::move(file)),
+      contents_(std::move(list.contents)),
+      stored_(std::move(list.arrays)),
+      memory_left_(kMostUnpacked) {
+  issues_ = std::move(list.issues);
+  notes_ = std::move(list.notes);
+  for (const StoredArray& stored : stored_) {
     arrays_.push_back(stored.array);
-    const std::int64_t bytes = most_bytes(list_.contents[stored.content]) - stored.begin - stored.in_record -
+    const std::int64_t bytes = most_bytes(contents_[stored.content]) - stored.begin - stored.in_record -
                                static_cast<std::int64_t>(size_of(stored.type));
     const StoredArray copy = stored;
     arrays_.back().rows_held = [bytes, copy](bool channel_major) {
@@ -116,7 +121,7 @@ StoredArrays::StoredArrays(std::unique_ptr<RandomFile> file, StoredList list)
 
 /// Returns the whole unpacked content, or null when it is plain or would take too much memory.
 const std::string* StoredArrays::in_memory(std::size_t content) {
-  const StoredContent& what = list_.contents[content];
+  const StoredContent& what = contents_[content];
   if (what.packing == Packing::plain) return nullptr;
   if (const auto known = unpacked_.find(content); known != unpacked_.end()) return &known->second;
   if (most_bytes(what) > memory_left_) return nullptr;
@@ -154,12 +159,12 @@ void StoredArrays::fetch(std::size_t content, StreamKey key, std::int64_t at, st
     std::copy_n(bytes->data() + begin, region_.got, region_.bytes.data());
     return;
   }
-  ContentStream& stream = streams_.try_emplace(key, *file_, list_.contents[content]).first->second;
+  ContentStream& stream = streams_.try_emplace(key, *file_, contents_[content]).first->second;
   region_.got = stream.read(at, region_.bytes.data(), count);
 }
 
 void StoredArrays::read_by_rows(const ArrayBand& band, BandValues& values) {
-  const StoredArray& stored = list_.arrays[band.array];
+  const StoredArray& stored = stored_[band.array];
   const Lie lie = lie_of(stored, band.channel_major);
   const std::int64_t item = static_cast<std::int64_t>(size_of(stored.type));
   const std::int64_t last = stored.in_record + (lie.columns - 1) * lie.column_stride + item;
@@ -168,7 +173,7 @@ void StoredArrays::read_by_rows(const ArrayBand& band, BandValues& values) {
   for (std::int64_t done = 0; done < band.rows;) {
     const std::int64_t rows = std::min(at_once, band.rows - done);
     const std::int64_t at = stored.begin + (band.first_row + done) * lie.row_stride;
-    const std::int64_t limit = most_bytes(list_.contents[stored.content]) - at;
+    const std::int64_t limit = most_bytes(contents_[stored.content]) - at;
     const std::int64_t wanted = std::min(limit, (rows - 1) * lie.row_stride + std::max(lie.row_stride, last));
     fetch(stored.content, {band.array, -1}, at, static_cast<std::size_t>(wanted));
     const std::int64_t got = whole(static_cast<std::int64_t>(region_.got) - last, lie.row_stride, rows);
@@ -186,7 +191,7 @@ void StoredArrays::read_by_rows(const ArrayBand& band, BandValues& values) {
 }
 
 void StoredArrays::read_by_columns(const ArrayBand& band, BandValues& values) {
-  const StoredArray& stored = list_.arrays[band.array];
+  const StoredArray& stored = stored_[band.array];
   const Lie lie = lie_of(stored, band.channel_major);
   const std::int64_t item = static_cast<std::int64_t>(size_of(stored.type));
   for (std::size_t i = 0; i < band.columns.size(); ++i) {
@@ -203,7 +208,7 @@ void StoredArrays::read_by_columns(const ArrayBand& band, BandValues& values) {
 }
 
 void StoredArrays::read(const ArrayBand& band, BandValues& values) {
-  const StoredArray& stored = list_.arrays[band.array];
+  const StoredArray& stored = stored_[band.array];
   if (lie_of(stored, band.channel_major).by_rows())
     read_by_rows(band, values);
   else
@@ -215,7 +220,7 @@ void StoredArrays::read(const ArrayBand& band, BandValues& values) {
 }
 
 void StoredArrays::report_mismatch(const std::string& name) {
-  list_.issues.add(make_issue(
+  issues_.add(make_issue(
       "checksum_mismatch", Severity::severe,
       fmt::format("the checksum of \"{}\" does not match its numbers; some of them are wrong, but the file "
                   "does not show which",
@@ -226,8 +231,8 @@ void StoredArrays::report_mismatch(const std::string& name) {
 /// Checks the contents that were not unpacked in one piece.
 void StoredArrays::finish() {
   std::vector<char> piece(kPiece);
-  for (std::size_t i = 0; i < list_.contents.size(); ++i) {
-    const StoredContent& content = list_.contents[i];
+  for (std::size_t i = 0; i < contents_.size(); ++i) {
+    const StoredContent& content = contents_[i];
     if (!content.crc || content.packing != Packing::plain) continue;
     ContentStream stream(*file_, content);
     std::uint32_t crc = 0;
@@ -238,7 +243,7 @@ void StoredArrays::finish() {
     if (crc != *content.crc) report_mismatch(content.name);
   }
   for (auto& [key, stream] : streams_)
-    if (stream.mismatch()) report_mismatch(list_.contents[list_.arrays[key.first].content].name);
+    if (stream.mismatch()) report_mismatch(contents_[stored_[key.first].content].name);
 }
 
 }  // namespace faultline

@@ -46,9 +46,6 @@ class StoredArrays : public ArrayFile {
  public:
   StoredArrays(std::unique_ptr<RandomFile> file, StoredList list);
 
-  const std::vector<NamedArray>& arrays() const override { return arrays_; }
-  const Issues& issues() const override { return list_.issues; }
-  std::string notes() const override { return list_.notes; }
   void read(const ArrayBand& band, BandValues& values) override;
   void finish() override;
 
@@ -68,8 +65,8 @@ class StoredArrays : public ArrayFile {
   void report_mismatch(const std::string& name);
 
   std::unique_ptr<RandomFile> file_;
-  StoredList list_;
-  std::vector<NamedArray> arrays_;
+  const std::vector<StoredContent> contents_;
+  const std::vector<StoredArray> stored_;
   std::map<StreamKey, ContentStream> streams_;
   std::map<std::size_t, std::string> unpacked_;  ///< whole contents; their total size is bounded
   std::int64_t memory_left_;

@@ -147,27 +147,6 @@ H5FD_class_t make_driver() {
   return driver;
 }
 
-std::recursive_mutex& library_mutex() {
-  static std::recursive_mutex mutex;
-  return mutex;
-}
-
-bool& is_alone() {
-  static bool alone = false;
-  return alone;
-}
-
-}  // namespace
-
-void Hdf5Turn::be_alone() { is_alone() = true; }
-
-Hdf5Turn::Hdf5Turn() {
-  if (!is_alone()) lock_ = std::unique_lock(library_mutex());
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
-namespace {
-
 Hdf5Id access_by(const Hdf5Descriptor& opened) {
   static const H5FD_class_t driver = make_driver();
   static const hid_t id = H5FDregister(&driver);
@@ -178,7 +157,17 @@ Hdf5Id access_by(const Hdf5Descriptor& opened) {
   return access;
 }
 
+bool is_alone = false;
+
 }  // namespace
+
+void Hdf5Turn::be_alone() { is_alone = true; }
+
+Hdf5Turn::Hdf5Turn() {
+  static std::recursive_mutex library_mutex;
+  if (!is_alone) lock_ = std::unique_lock(library_mutex);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 Hdf5Id hdf5_read_access(int descriptor) { return access_by({descriptor, nullptr}); }
 

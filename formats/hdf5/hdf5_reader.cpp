@@ -16,7 +16,6 @@
 
 #include "formats/arrays/array_file.hpp"
 #include "formats/arrays/array_table.hpp"
-#include "formats/hdf5/hdf5_arrays.hpp"
 #include "formats/hdf5/hdf5_dataset.hpp"
 #include "formats/hdf5/hdf5_library.hpp"
 #include "formats/known_formats.hpp"
@@ -83,10 +82,6 @@ class Hdf5Arrays : public ArrayFile {
   ~Hdf5Arrays() override { close(); }
   Hdf5Arrays(const Hdf5Arrays&) = delete;
   Hdf5Arrays& operator=(const Hdf5Arrays&) = delete;
-
-  const std::vector<NamedArray>& arrays() const override { return arrays_; }
-  const Issues& issues() const override { return issues_; }
-  std::string notes() const override { return notes_; }
 
   /// Chunks are unpacked whole, and those of a row are cached until later rows no longer need them.
   void will_read(const std::vector<ArrayBand>& bands) override {
@@ -221,11 +216,9 @@ class Hdf5Arrays : public ArrayFile {
   std::int64_t bytes_ = 0;
   Hdf5Id file_;
   std::vector<Hdf5Dataset> datasets_;
-  std::vector<NamedArray> arrays_;
   std::vector<std::pair<std::size_t, std::size_t>> sources_;  ///< dataset and field of each array
-  Issues issues_;
-  std::string notes_, no_numbers_;   ///< names of the first datasets without numbers
-  std::size_t described_bytes_ = 0;  ///< of names and units
+  std::string no_numbers_;                                    ///< names of the first datasets without numbers
+  std::size_t described_bytes_ = 0;                           ///< of names and units
 };
 
 std::unique_ptr<ArrayFile> open_plain(const std::string& path) { return open_hdf5_arrays(path, nullptr); }

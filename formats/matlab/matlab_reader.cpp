@@ -12,7 +12,6 @@
 
 #include "formats/arrays/array_file.hpp"
 #include "formats/arrays/stored_arrays.hpp"
-#include "formats/hdf5/hdf5_arrays.hpp"
 #include "formats/known_formats.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/issue.hpp"

@@ -43,7 +43,8 @@ struct McapMessage {
 /// Returns nullopt for a record that is too short.
 std::optional<McapMessage> mcap_message(std::string_view content) {
   ByteCursor record(content);
-  McapMessage message{record.take<std::uint16_t>()};
+  McapMessage message;
+  message.channel = record.take<std::uint16_t>();
   record.take<std::uint32_t>();  // its number
   message.time_ns = record.take<std::uint64_t>();
   record.take<std::uint64_t>();  // time of publication

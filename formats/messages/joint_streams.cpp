@@ -45,19 +45,16 @@ bool share_a_joint(const std::vector<std::string>& a, const std::vector<std::str
 
 JointStateDecoder* JointStreams::decoder_of(const Topic& topic, int index) {
   const auto at = static_cast<std::size_t>(index);
-  if (at >= asked_.size()) {
-    asked_.resize(at + 1, false);
-    decoders_.resize(at + 1);
-    last_.resize(at + 1, nullptr);
-  }
-  if (!asked_[at] && is_joint_state(topic.type)) decoders_[at] = joint_state_decoder(topic.encoding);
-  asked_[at] = true;
-  return decoders_[at].get();
+  if (at >= readers_.size()) readers_.resize(at + 1);
+  TopicReader& reader = readers_[at];
+  if (!reader.asked && is_joint_state(topic.type)) reader.decoder = joint_state_decoder(topic.encoding);
+  reader.asked = true;
+  return reader.decoder.get();
 }
 
 JointStreams::Pattern* JointStreams::pattern_of(int topic, const JointMessage& state,
                                                 const JointStateDecoder& decoder) {
-  Pattern*& last = last_[static_cast<std::size_t>(topic)];
+  Pattern*& last = readers_[static_cast<std::size_t>(topic)].last;
   if (last && last->encoded == state.names) return last;
   if (state.names.size() > kMostNameBytes) return nullptr;
   std::string key = std::to_string(topic) + ' ';

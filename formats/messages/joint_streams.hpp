@@ -91,15 +91,20 @@ class JointStreams {
     JointPlacing placing;
   };
 
+  /// What is kept of a topic.
+  struct TopicReader {
+    bool asked = false;                          ///< its decoder was looked up
+    std::unique_ptr<JointStateDecoder> decoder;  ///< null if there is none
+    Pattern* last = nullptr;                     ///< of its last message
+  };
+
   JointStateDecoder* decoder_of(const Topic& topic, int index);
   Pattern* pattern_of(int topic, const JointMessage& state, const JointStateDecoder& decoder);
   void join(const Pattern& pattern);
   void place(Pattern& pattern) const;
 
-  std::vector<std::unique_ptr<JointStateDecoder>> decoders_;  ///< by topic
-  std::vector<bool> asked_;                                   ///< by topic: its decoder was looked up
+  std::vector<TopicReader> readers_;  ///< by topic
   std::vector<std::unique_ptr<Pattern>> patterns_;
-  std::vector<Pattern*> last_;                            ///< by topic
   std::unordered_map<std::string, Pattern*> pattern_of_;  ///< by topic and encoded names
   std::vector<JointStream> streams_;
   bool settled_ = false;

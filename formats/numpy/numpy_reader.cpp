@@ -138,6 +138,8 @@ std::size_t local_header(const RandomFile& file, std::uint64_t at, ZipMember& me
   return kLocalBytes + name + extra;
 }
 
+/// The members of a .zip file according to its directory. If that is damaged or missing, they are searched
+/// from the front, with an issue. Members that cannot be read are omitted and reported.
 class MemberList {
  public:
   MemberList(const RandomFile& file, Issues& issues) : file_(file), issues_(issues) {}
@@ -218,12 +220,6 @@ class MemberList {
   std::set<std::string> names_;
 };
 
-/// Returns the members of a .zip file according to its directory. If that is damaged or missing, searches
-/// from the front, with an issue. Members that cannot be read are omitted and reported.
-std::vector<StoredContent> zip_members(const RandomFile& file, Issues& issues) {
-  return MemberList(file, issues).run();
-}
-
 constexpr std::string_view kNpyEnding = ".npy";
 constexpr std::size_t kLongestNotes = 1 << 24;
 constexpr std::size_t kNamedMembers = 8;
@@ -295,7 +291,7 @@ std::string other_archive(const std::vector<StoredContent>& members) {
 std::unique_ptr<ArrayFile> open_npz_file(const std::string& path) {
   auto file = std::make_unique<RandomFile>(path);
   StoredList list;
-  list.contents = zip_members(*file, list.issues);
+  list.contents = MemberList(*file, list.issues).run();
   for (std::size_t i = 0; i < list.contents.size(); ++i) {
     if (list.contents[i].name == kNotesName + std::string(".json"))
       list.notes = read_text(*file, list.contents[i]);
