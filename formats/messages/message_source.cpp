@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "formats/bytes/little_endian.hpp"
 #include "lib/core/error.hpp"
 
 namespace faultline {
@@ -83,12 +84,20 @@ void ChunkedSource::lose_chunk(const std::string& why, bool doubtful) {
                            doubtful ? "; its messages were left out" : "")});
 }
 
-bool ChunkedSource::unpack(BlockPacking packing, std::uint64_t size, std::string_view& bytes) {
-  if (packing == BlockPacking::none) return bytes.size() == size;
-  const bool sound = unpack_block(packing, bytes, size, unpacked_);
-  bytes = unpacked_.view();
-  bytes_->spend(block_work_ns(packing, static_cast<std::int64_t>(bytes.size())));
-  return sound;
+void ChunkedSource::unpack(BlockPacking packing, std::uint64_t size, std::uint32_t checksum, bool is_cut,
+                           std::string_view& bytes) {
+  bool sound = bytes.size() == size;
+  if (packing != BlockPacking::none) {
+    sound = unpack_block(packing, bytes, size, unpacked_);
+    bytes = unpacked_.view();
+    bytes_->spend(block_work_ns(packing, static_cast<std::int64_t>(bytes.size())));
+  }
+  if (is_cut)
+    lose_chunk("the file ends inside it; the data before the cut are read", false);
+  else if (!sound)
+    lose_chunk("it cannot be unpacked to its end", true);
+  else if (checksum != 0 && crc32_of(bytes) != checksum)
+    lose_chunk("its checksum does not match", true);
 }
 
 void ChunkedSource::compare(std::uint32_t channel, std::size_t messages, int topic) {

@@ -118,11 +118,12 @@ class ChunkedSource : public MessageSource {
   void begin_chunk();
   /// Reports damage of the chunk. Its messages may be wrong, and are only counted, if it is `doubtful`.
   void lose_chunk(const std::string& why, bool doubtful);
+  /// Replaces the bytes of a chunk by the unpacked ones, `size` if it is undamaged, which are valid until the
+  /// next chunk. Reports a chunk that is damaged or in which the file ends; a checksum of 0 is none.
+  void unpack(BlockPacking packing, std::uint64_t size, std::uint32_t checksum, bool is_cut,
+              std::string_view& bytes);
   bool is_lossy() const { return lossy_; }
   bool is_doubtful() const { return doubtful_; }
-  /// Replaces the bytes of a chunk by the unpacked ones, which are valid until the next chunk; false when
-  /// they are damaged or not `size` bytes.
-  bool unpack(BlockPacking packing, std::uint64_t size, std::string_view& bytes);
   /// Takes the index after a chunk; messages of a topic beyond those given are missing in a lossy chunk.
   void compare(std::uint32_t channel, std::size_t messages, int topic);
 

@@ -31,7 +31,6 @@ constexpr std::uint32_t kMembersIn64 = 0xffffffff;  ///< the number is in the ex
 constexpr std::uint16_t kExtra64 = 1;
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
 constexpr std::uint16_t kEncrypted = 1, kSizesBehind = 8;  ///< flags
-constexpr std::size_t kLongestDescriptor = 24;
 
 template <typename Number>
 Number number_at(const std::string& bytes, std::size_t at) {

@@ -247,11 +247,7 @@ class Rosbag1Source : public ChunkedSource {
     if (!packing) return lose_chunk("its compression is unknown", false);
     if (size > kLargestBlock) return lose_chunk(too_large_block(size), false);
     inside_ = data;
-    const bool sound = unpack(*packing, size, inside_);
-    if (!whole)
-      lose_chunk("the file ends inside it; the data before the cut are read", false);
-    else if (!sound)
-      lose_chunk("it cannot be unpacked to its end", true);
+    unpack(*packing, size, 0, !whole, inside_);
   }
 
   Taken next_inside(Message& message) override {

@@ -100,30 +100,19 @@ class Rosbag2Source : public MessageSource {
       : MessageSource(std::move(bytes), "rosbag2"),
         file_bytes_(bytes_of(path()) + bytes_of(path() + "-wal")),
         budget_(path()) {
-    try {
-      open();
-      bound_work();
-      for (const char* table : {"topics", "messages"}) refuse_computed(table);
-      sqlite3_set_authorizer(db_, allow, nullptr);
-      read_topics();
-    } catch (...) {
-      sqlite3_close(db_);
-      throw;
-    }
+    open();
+    bound_work();
+    for (const char* table : {"topics", "messages"}) refuse_computed(table);
+    sqlite3_set_authorizer(db_.get(), allow, nullptr);
+    read_topics();
     start();
   }
-  ~Rosbag2Source() override {
-    sqlite3_finalize(messages_);
-    sqlite3_close(db_);
-  }
-  Rosbag2Source(const Rosbag2Source&) = delete;
-  Rosbag2Source& operator=(const Rosbag2Source&) = delete;
 
   bool next(Message& message) override {
     while (!at_end_) {
       if (!at_row_) {
-        const int result = sqlite3_step(messages_);
-        const bool sound = result == SQLITE_ROW && sqlite3_column_int64(messages_, 0) > number_;
+        const int result = sqlite3_step(messages_.get());
+        const bool sound = result == SQLITE_ROW && sqlite3_column_int64(messages_.get(), 0) > number_;
         if (over_budget_) refuse_work();
         at_end_ = result == SQLITE_DONE || (!sound && !pass_damage());
         if (at_end_) break;
@@ -157,27 +146,30 @@ class Rosbag2Source : public MessageSource {
     find_last_number();
     seek(number_);
     at_row_ = at_end_ = false;
-    sqlite3_reset(messages_);
+    sqlite3_reset(messages_.get());
   }
 
   void open() {
-    if (sqlite3_open_v2(uri_of(path()).c_str(), &db_, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr) !=
-        SQLITE_OK)
-      fail(fmt::format("cannot be opened as SQLite ({})", sqlite3_errmsg(db_)));
+    sqlite3* db = nullptr;
+    const int result =
+        sqlite3_open_v2(uri_of(path()).c_str(), &db, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+    db_.reset(db);
+    if (result != SQLITE_OK) fail(fmt::format("cannot be opened as SQLite ({})", sqlite3_errmsg(db)));
     for (const int off :
          {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW})
-      sqlite3_db_config(db_, off, 0, nullptr);
-    sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kLongestMessage);
+      sqlite3_db_config(db, off, 0, nullptr);
+    sqlite3_limit(db, SQLITE_LIMIT_LENGTH, kLongestMessage);
     // Nothing is written; the setting lets SQLite read a file that is shorter than its head states.
-    sqlite3_db_config(db_, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+    sqlite3_db_config(db, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
   }
 
   /// Stops SQLite when it takes far more steps than a file of this size needs.
   void bound_work() {
-    sqlite3_exec(db_, fmt::format("PRAGMA cache_size = -{}; PRAGMA temp_store = FILE", kMostCacheKib).c_str(),
+    sqlite3_exec(db_.get(),
+                 fmt::format("PRAGMA cache_size = -{}; PRAGMA temp_store = FILE", kMostCacheKib).c_str(),
                  nullptr, nullptr, nullptr);
     sqlite3_progress_handler(
-        db_, kCountedSteps,
+        db_.get(), kCountedSteps,
         [](void* self) {
           auto& source = *static_cast<Rosbag2Source*>(self);
           try {
@@ -193,7 +185,7 @@ class Rosbag2Source : public MessageSource {
   /// Rejects views, virtual tables and computed columns, as they could cause any amount of work from a small
   /// file.
   void refuse_computed(const char* table) {
-    const Statement kind = prepared(db_, "SELECT type, sql FROM sqlite_master WHERE name = ?1");
+    const Statement kind = prepared(db_.get(), "SELECT type, sql FROM sqlite_master WHERE name = ?1");
     if (!kind) return;
     sqlite3_bind_text(kind.get(), 1, table, -1, SQLITE_STATIC);
     if (sqlite3_step(kind.get()) == SQLITE_ROW &&
@@ -203,7 +195,7 @@ class Rosbag2Source : public MessageSource {
           "is not a rosbag2 recording: \"{}\" is not a plain table but a computed one, which is not "
           "evaluated. Export it as CSV",
           table));
-    const Statement columns = prepared(db_, "SELECT hidden FROM pragma_table_xinfo(?1)");
+    const Statement columns = prepared(db_.get(), "SELECT hidden FROM pragma_table_xinfo(?1)");
     if (!columns) return;
     sqlite3_bind_text(columns.get(), 1, table, -1, SQLITE_STATIC);
     while (sqlite3_step(columns.get()) == SQLITE_ROW)
@@ -222,12 +214,12 @@ class Rosbag2Source : public MessageSource {
 
   void read_topics() {
     const Statement topics =
-        prepared(db_, "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
-    if (!topics || !prepared(db_, kFromNumber))
+        prepared(db_.get(), "SELECT id, name, type, serialization_format FROM topics ORDER BY id");
+    if (!topics || !prepared(db_.get(), kFromNumber))
       fail(fmt::format(
           "is an SQLite file, but not a readable rosbag2 recording ({}); a recording has the tables topics "
           "and messages. Export it as CSV",
-          sqlite3_errmsg(db_)));
+          sqlite3_errmsg(db_.get())));
     while (sqlite3_step(topics.get()) == SQLITE_ROW) {
       spend(kMessageWork_ns);
       topic_of_id_.emplace(
@@ -238,18 +230,17 @@ class Rosbag2Source : public MessageSource {
   }
 
   void find_last_number() {
-    const Statement last = prepared(db_, "SELECT max(id) FROM messages");
+    const Statement last = prepared(db_.get(), "SELECT max(id) FROM messages");
     last_number_ = last && sqlite3_step(last.get()) == SQLITE_ROW ? sqlite3_column_int64(last.get(), 0) : 0;
     if (over_budget_) refuse_work();
   }
 
   /// Moves to the first message from `number` on; false when none can be read.
   bool seek(std::int64_t number) {
-    sqlite3_finalize(messages_);
-    messages_ = nullptr;
-    sqlite3_prepare_v2(db_, kFromNumber, -1, &messages_, nullptr);
-    sqlite3_bind_int64(messages_, 1, number);
-    return at_row_ = sqlite3_step(messages_) == SQLITE_ROW && sqlite3_column_int64(messages_, 0) >= number;
+    messages_ = prepared(db_.get(), kFromNumber);
+    sqlite3_bind_int64(messages_.get(), 1, number);
+    return at_row_ = sqlite3_step(messages_.get()) == SQLITE_ROW &&
+                     sqlite3_column_int64(messages_.get(), 0) >= number;
   }
 
   /// Skips unreadable messages, with growing steps, then bisects to the first readable one.
@@ -268,7 +259,7 @@ class Rosbag2Source : public MessageSource {
       }
       seek(light);
     }
-    const std::int64_t next = found ? sqlite3_column_int64(messages_, 0) : last_number_ + 1;
+    const std::int64_t next = found ? sqlite3_column_int64(messages_.get(), 0) : last_number_ + 1;
     const std::string lost = next > first ? fmt::format("messages {} to {}", first, next - 1)
                                           : fmt::format("the messages from number {} on", first);
     issues_.add(
@@ -277,19 +268,19 @@ class Rosbag2Source : public MessageSource {
   }
 
   bool take(Message& message) {
-    number_ = sqlite3_column_int64(messages_, 0);
-    const std::int64_t id = sqlite3_column_int64(messages_, 1);
+    number_ = sqlite3_column_int64(messages_.get(), 0);
+    const std::int64_t id = sqlite3_column_int64(messages_.get(), 1);
     const auto topic = topic_of_id_.find(id);
     if (topic == topic_of_id_.end()) {
       issues_.add({"channel_unknown", "", Severity::warning,
                    fmt::format("skipped message {}: the file declares no topic {}", number_, id)});
       return false;
     }
-    const auto* bytes = static_cast<const char*>(sqlite3_column_blob(messages_, 3));
-    spend(kMessageWork_ns + kMessageByte_ns * sqlite3_column_bytes(messages_, 3));
+    const auto* bytes = static_cast<const char*>(sqlite3_column_blob(messages_.get(), 3));
+    spend(kMessageWork_ns + kMessageByte_ns * sqlite3_column_bytes(messages_.get(), 3));
     message = {topic->second,
-               sqlite3_column_int64(messages_, 2),
-               {bytes ? bytes : "", static_cast<std::size_t>(sqlite3_column_bytes(messages_, 3))},
+               sqlite3_column_int64(messages_.get(), 2),
+               {bytes ? bytes : "", static_cast<std::size_t>(sqlite3_column_bytes(messages_.get(), 3))},
                bytes == nullptr};
     return true;
   }
@@ -307,8 +298,8 @@ class Rosbag2Source : public MessageSource {
 
   [[noreturn]] void fail(const std::string& what) const { throw Error(ErrorCode::input, path(), what); }
 
-  sqlite3* db_ = nullptr;
-  sqlite3_stmt* messages_ = nullptr;  ///< from some number on
+  std::unique_ptr<sqlite3, int (*)(sqlite3*)> db_{nullptr, sqlite3_close};
+  Statement messages_{nullptr, sqlite3_finalize};  ///< from some number on
   std::map<std::int64_t, int> topic_of_id_;
   std::int64_t number_ = 0;       ///< of the last message handed out
   std::int64_t last_number_ = 0;  ///< of the file's last message, if it can be read
