@@ -8,16 +8,6 @@
 #include "lib/log/log_channels.hpp"
 
 namespace faultline {
-namespace {
-
-/// Returns texts such as ".csv (text)".
-std::vector<std::string> choices(const std::vector<LogFormat>& formats) {
-  std::vector<std::string> all;
-  for (const LogFormat& format : formats) all.push_back(format.extensions.front() + " (" + format.what + ")");
-  return all;
-}
-
-}  // namespace
 
 std::vector<WrittenChannel> channels_of(const Log& log) {
   std::vector<WrittenChannel> channels{{"t", "", &log.time}};
@@ -34,10 +24,12 @@ std::unique_ptr<LogWriter> create_log(const std::string& path) {
   const std::vector<LogFormat> formats = written_formats();
   if (path == "-") return formats.front().create(path);
   const std::string extension = std::filesystem::path(path).extension().string();
-  for (const LogFormat& format : formats)
+  std::vector<std::string> choices;  // such as ".csv (text)"
+  for (const LogFormat& format : formats) {
     if (extension == format.extensions.front()) return format.create(path);
-  throw Error(ErrorCode::usage, path,
-              "the extension decides the format of a log: use " + either_of(choices(formats)));
+    choices.push_back(format.extensions.front() + " (" + format.what + ")");
+  }
+  throw Error(ErrorCode::usage, path, "the extension decides the format of a log: use " + either_of(choices));
 }
 
 void write_log(const std::string& path, const Log& log) {

@@ -59,16 +59,13 @@ JointStreams::Pattern* JointStreams::pattern_of(int topic, const JointMessage& s
   if (state.names.size() > kMostNameBytes) return nullptr;
   std::string key = std::to_string(topic) + ' ';
   key += state.names;
-  if (const auto known = pattern_of_.find(key); known != pattern_of_.end()) return last = known->second;
+  if (const auto known = pattern_of_.find(key); known != pattern_of_.end()) return last = &known->second;
   if (patterns_.size() == kMostPatterns) return nullptr;
-  auto fresh = std::make_unique<Pattern>();
-  fresh->topic = topic;
-  fresh->encoded = std::string(state.names);
-  fresh->names = names_in(state, decoder);
-  if (settled_) place(*fresh);
-  patterns_.push_back(std::move(fresh));
-  pattern_of_.emplace(std::move(key), patterns_.back().get());
-  return last = patterns_.back().get();
+  last = &pattern_of_[key];
+  *last = {topic, std::string(state.names), names_in(state, decoder), {}, {}};
+  if (settled_) place(*last);
+  patterns_.push_back(last);
+  return last;
 }
 
 bool JointStreams::learn(const Topic& topic, const Message& message) {
@@ -129,8 +126,8 @@ void JointStreams::place(Pattern& pattern) const {
 }
 
 void JointStreams::settle() {
-  for (const auto& pattern : patterns_) join(*pattern);
-  for (const auto& pattern : patterns_) place(*pattern);
+  for (const Pattern* pattern : patterns_) join(*pattern);
+  for (Pattern* pattern : patterns_) place(*pattern);
   settled_ = true;
 }
 

@@ -103,9 +103,9 @@ class JointStreams {
   void join(const Pattern& pattern);
   void place(Pattern& pattern) const;
 
-  std::vector<TopicReader> readers_;  ///< by topic
-  std::vector<std::unique_ptr<Pattern>> patterns_;
-  std::unordered_map<std::string, Pattern*> pattern_of_;  ///< by topic and encoded names
+  std::vector<TopicReader> readers_;                     ///< by topic
+  std::unordered_map<std::string, Pattern> pattern_of_;  ///< by topic and encoded names
+  std::vector<Pattern*> patterns_;                       ///< in the order in which they were met
   std::vector<JointStream> streams_;
   bool settled_ = false;
 };

@@ -47,15 +47,6 @@ struct ZipMember {
   std::uint64_t packed = 0, unpacked = 0, local = 0;
 };
 
-/// Reads the fields from `flags` on, which have the same layout in both headers.
-void read_fields(const std::string& header, std::size_t at, ZipMember& member) {
-  member.flags = number_at<std::uint16_t>(header, at);
-  member.method = number_at<std::uint16_t>(header, at + 2);
-  member.crc = number_at<std::uint32_t>(header, at + 8);
-  member.packed = number_at<std::uint32_t>(header, at + 12);
-  member.unpacked = number_at<std::uint32_t>(header, at + 16);
-}
-
 /// Reads numbers that are too large for the header.
 void read_extra(const std::string& extra, ZipMember& member) {
   for (std::size_t at = 0; at + 4 <= extra.size();) {
@@ -68,6 +59,22 @@ void read_extra(const std::string& extra, ZipMember& member) {
     }
     at += size;
   }
+}
+
+/// Reads a header that ends at `end`, before its name and extra field. Both headers have the same fields from
+/// `flags` on. Returns the position after all; 0 if `bytes` end before.
+std::size_t read_header(const std::string& bytes, std::size_t flags, std::size_t end, ZipMember& member) {
+  member.flags = number_at<std::uint16_t>(bytes, flags);
+  member.method = number_at<std::uint16_t>(bytes, flags + 2);
+  member.crc = number_at<std::uint32_t>(bytes, flags + 8);
+  member.packed = number_at<std::uint32_t>(bytes, flags + 12);
+  member.unpacked = number_at<std::uint32_t>(bytes, flags + 16);
+  const std::size_t name = number_at<std::uint16_t>(bytes, flags + 20),
+                    extra = number_at<std::uint16_t>(bytes, flags + 22);
+  if (end + name + extra > bytes.size()) return 0;
+  member.name = bytes.substr(end, name);
+  read_extra(bytes.substr(end + name, extra), member);
+  return end + name + extra;
 }
 
 struct Directory {
@@ -107,16 +114,11 @@ std::optional<std::vector<ZipMember>> read_directory(const RandomFile& file) {
   for (std::size_t at = 0; at + kCentralBytes <= bytes.size();) {
     if (number_at<std::uint32_t>(bytes, at) != kCentral) return std::nullopt;
     ZipMember member;
-    read_fields(bytes, at + 8, member);
     member.local = number_at<std::uint32_t>(bytes, at + 42);
-    const std::size_t name = number_at<std::uint16_t>(bytes, at + 28),
-                      extra = number_at<std::uint16_t>(bytes, at + 30),
-                      comment = number_at<std::uint16_t>(bytes, at + 32);
-    if (at + kCentralBytes + name + extra > bytes.size()) return std::nullopt;
-    member.name = bytes.substr(at + kCentralBytes, name);
-    read_extra(bytes.substr(at + kCentralBytes + name, extra), member);
+    const std::size_t end = read_header(bytes, at + 8, at + kCentralBytes, member);
+    if (end == 0) return std::nullopt;
     members.push_back(member);
-    at += kCentralBytes + name + extra + comment;
+    at = end + number_at<std::uint16_t>(bytes, at + 32);  // its comment
   }
   if (members.size() != directory->members || members.size() > kMostMembers) return std::nullopt;
   return members;
@@ -127,14 +129,10 @@ std::size_t local_header(const RandomFile& file, std::uint64_t at, ZipMember& me
   if (at > static_cast<std::uint64_t>(file.size())) return 0;
   std::string header = file.text(static_cast<std::int64_t>(at), kLocalBytes);
   if (header.size() < kLocalBytes || number_at<std::uint32_t>(header, 0) != kLocal) return 0;
-  read_fields(header, 6, member);
-  const std::size_t name = number_at<std::uint16_t>(header, 26), extra = number_at<std::uint16_t>(header, 28);
-  header += file.text(static_cast<std::int64_t>(at + kLocalBytes), name + extra);
-  if (kLocalBytes + name + extra > header.size()) return 0;
-  member.name = header.substr(kLocalBytes, name);
+  const std::size_t more = number_at<std::uint16_t>(header, 26) + number_at<std::uint16_t>(header, 28);
+  header += file.text(static_cast<std::int64_t>(at + kLocalBytes), more);
   member.local = at;
-  read_extra(header.substr(kLocalBytes + name, extra), member);
-  return kLocalBytes + name + extra;
+  return read_header(header, 6, kLocalBytes, member);
 }
 
 /// The members of a .zip file according to its directory. If that is damaged or missing, they are searched

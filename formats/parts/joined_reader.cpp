@@ -62,7 +62,6 @@ class Partner {
       : reader_(std::move(reader)), time_(time) {}
 
   const RawReader& reader() const { return *reader_; }
-  RawReader& reader() { return *reader_; }
   /// Writes the values of the file's columns into values[column][row], for a row of the other file with this
   /// number and time.
   void give(std::int64_t number, double time_s, int row, const std::vector<double*>& values) {
@@ -73,10 +72,12 @@ class Partner {
       give_by_row(number, row, values);
   }
 
-  /// After the last give() of a join by row, counts the rows that were never requested.
+  /// After the last give(), reads the rest of the file for its hash; of a join by row, counts the rows that
+  /// were never requested.
   void read_rest() {
-    if (time_) return;
-    while (next_row()) ++passed_;
+    while (!time_ && next_row()) ++passed_;
+    while (reader_->next(block_, kPartnerRowsAtOnce)) {
+    }
   }
 
   void rewind() {
@@ -163,13 +164,12 @@ class Partner {
         gap_s > 0.0 && (step_s_ <= 0.0 || gap_s <= kWidestGap * step_s_) && before_.time_s < time_s;
     without_ += !exact && !near;
     between_ += !exact && near;
-    const double share = exact ? 1.0 : (near ? (time_s - before_.time_s) / gap_s : kNan);
     for (std::size_t c = 0; c < values.size(); ++c) {
       if (!values[c]) continue;
-      if (exact)
-        values[c][row] = behind_.values[c];
-      else
-        values[c][row] = near ? before_.values[c] + share * (behind_.values[c] - before_.values[c]) : kNan;
+      values[c][row] = exact ? behind_.values[c] : kNan;
+      if (exact || !near) continue;
+      const double share = (time_s - before_.time_s) / gap_s;
+      values[c][row] = before_.values[c] + share * (behind_.values[c] - before_.values[c]);
     }
   }
 
@@ -281,11 +281,8 @@ class JoinedReader : public RawReader {
 
   void finish() {
     std::string hashes = first_->identity().sha256;
-    RawBlock rest;
     for (Joined& joined : joined_) {
       joined.partner.read_rest();
-      while (joined.partner.reader().next(rest, kPartnerRowsAtOnce)) {
-      }
       hashes += joined.partner.reader().identity().sha256;
     }
     identity_.sha256 = sha256_hex(hashes);
