@@ -27,7 +27,7 @@ constexpr std::array kArrays{"position", "velocity", "effort"};  ///< in the ord
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + quoted(name);
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + in_quotes(name);
   return text;
 }
 
@@ -54,7 +54,7 @@ int choose_main(const std::vector<Topic>& topics, const std::vector<JointStream>
   std::set<std::string> names;
   for (const JointStream& stream : streams) names.insert(name_of(stream));
   throw Error(ErrorCode::input, path,
-              "has no topic " + quoted(choice.topic) +
+              "has no topic " + in_quotes(choice.topic) +
                   " with joint states, although the robot file names it as [log] topic; the topics with "
                   "joint states are " +
                   listed({names.begin(), names.end()}));
@@ -99,7 +99,7 @@ std::vector<int> order_joints(const JointStream& stream, const RecordingChoice& 
     order.push_back(index_of(stream.joints, joint));
     if (order.back() < 0)
       throw Error(ErrorCode::input, path,
-                  "has no joint " + quoted(joint) +
+                  "has no joint " + in_quotes(joint) +
                       ", although the robot file names it in [log] joints; the messages have " +
                       listed(stream.joints));
   }
@@ -185,7 +185,7 @@ class Layouter {
           {"streams_left_out", "", Severity::warning,
            fmt::format(
                "{} further lists of joints, the first on {}, were left out: a log has at most {} columns",
-               left_out_, quoted(std::as_const(first_left_out_)), kMostLogColumns)});
+               left_out_, in_quotes(std::as_const(first_left_out_)), kMostLogColumns)});
   }
 
   void add_nothing(int s) {

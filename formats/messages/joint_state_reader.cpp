@@ -36,7 +36,7 @@ std::string topics_sentence(const std::vector<Topic>& topics) {
   if (topics.empty()) return "it holds no topics";
   std::string text = "its topics are ";
   for (std::size_t i = 0; i < topics.size() && i < kNamedTopics; ++i)
-    text += fmt::format("{}{} ({}, {})", i ? ", " : "", quoted(topics[i].name),
+    text += fmt::format("{}{} ({}, {})", i ? ", " : "", in_quotes(topics[i].name),
                         shortened(topics[i].type, kLongestName), shortened(topics[i].encoding, kLongestName));
   if (topics.size() > kNamedTopics) text += fmt::format(" and {} more", topics.size() - kNamedTopics);
   return text;
@@ -155,10 +155,10 @@ class JointStateReader : public RawReader {
     }
     if (damaged && !message.lost)
       issues_.add({"message_damaged", "", Severity::warning,
-                   "a message of " + quoted(topic.name) + " cannot be read"});
+                   "a message of " + in_quotes(topic.name) + " cannot be read"});
     else if (is_late)
       issues_.add({"joints_appear_late", "", Severity::severe,
-                   "a message of " + quoted(topic.name) +
+                   "a message of " + in_quotes(topic.name) +
                        " names joints that no earlier message named; it was left out"});
     else if (placing && placing->stream == layout_.main)
       put_row(message, *placing, block);
@@ -182,7 +182,7 @@ class JointStateReader : public RawReader {
       report_lost("joints_appear_late", Severity::severe, row, 1,
                   fmt::format("message {} of {} names joints that no earlier message named, or joints in "
                               "more orders than a recording has; it was left out",
-                              row, quoted(topic.name)));
+                              row, in_quotes(topic.name)));
     else
       report_lost(
           "message_damaged", Severity::warning, row, 1,
@@ -216,7 +216,7 @@ class JointStateReader : public RawReader {
                             "of the log: names or topic changed, or the recording continues with another "
                             "robot. These messages were left out; to read them instead, name their [log] "
                             "topic and joints in a robot file",
-                            first, quoted(source_->topics()[stream.topic].name), joints));
+                            first, in_quotes(source_->topics()[stream.topic].name), joints));
     identity_.rows_read += rows;
     return true;
   }
@@ -278,7 +278,7 @@ class JointStateReader : public RawReader {
     if (missing != placing.is_present.end())
       issues_.add({"joint_missing", "", Severity::warning,
                    fmt::format("message {} does not name joint {}; the values of this joint are missing", row,
-                               quoted(main_stream().joints[missing - placing.is_present.begin()])),
+                               in_quotes(main_stream().joints[missing - placing.is_present.begin()])),
                    row});
   }
 
@@ -310,7 +310,7 @@ class JointStateReader : public RawReader {
       issues_.add({"publishers_mixed", "", Severity::severe,
                    "the positions alternate from row to row between two trajectories, as if two publishers "
                    "send on " +
-                       quoted(source_->topics()[main_stream().topic].name) +
+                       in_quotes(source_->topics()[main_stream().topic].name) +
                        "; record each publisher on its own topic"});
     rivals_.report_at_end(issues_);
   }

@@ -27,7 +27,7 @@ struct Topic {
 };
 
 /// Returns the name of a topic or a joint in quotation marks, shortened.
-inline std::string quoted(std::string_view name) { return "\"" + shortened(name, kLongestName) + "\""; }
+inline std::string in_quotes(std::string_view name) { return "\"" + shortened(name, kLongestName) + "\""; }
 
 /// Bytes to which each text of a topic is cut; no name is as long.
 inline constexpr std::size_t kLongestTopicText = 1 << 12;
