@@ -19,27 +19,6 @@
 
 namespace faultline {
 
-/// Largest content in bytes that is read; larger records are skipped.
-inline constexpr std::uint64_t kLargestContent = kLargestBlock;
-/// Bytes of a message before its data.
-inline constexpr std::uint64_t kMessageHead = 22;
-inline constexpr std::uint64_t kFooterSize = 20, kDataEndSize = 4;
-/// After damage a message is accepted only if it is less than this later than the last one.
-inline constexpr std::uint64_t kLikelyStep_ns = 86'400'000'000'000;
-inline constexpr std::size_t kSearchedAtOnce = 1 << 16;
-
-/// True when `content`, the beginning of a chunk's content of this size, has a valid chunk header.
-inline bool is_mcap_chunk(std::string_view content, std::uint64_t size) {
-  ByteCursor chunk(content);
-  const auto first = chunk.take<std::uint64_t>(), last = chunk.take<std::uint64_t>();
-  chunk.take<std::uint64_t>();
-  chunk.take<std::uint32_t>();
-  const std::string_view packing = chunk.text();
-  const auto records = chunk.take<std::uint64_t>();
-  return chunk.ok() && first <= last && (packing.empty() || packing == "lz4" || packing == "zstd") &&
-         records == size - chunk.position();
-}
-
 /// Schemas and channels of an MCAP file, in the order in which they are met.
 class McapTopics {
  public:
@@ -50,7 +29,7 @@ class McapTopics {
     recording_ = recording;
     if (recordings_.size() <= recording) recordings_.resize(recording + 1);
   }
-  /// Adds the content of a schema or channel record; damaged and repeated ones are ignored.
+  /// Adds the content of a schema record; damaged and repeated ones are ignored.
   void add_schema(std::string_view content) {
     ByteCursor record(content);
     const auto id = record.take<std::uint16_t>();
@@ -58,6 +37,7 @@ class McapTopics {
     if (record.ok()) numbers().type_of_schema.emplace(id, name.substr(0, kLongestTopicText));
   }
 
+  /// Does the same for a channel record.
   void add_channel(std::string_view content) {
     ByteCursor record(content);
     const auto id = record.take<std::uint16_t>(), schema = record.take<std::uint16_t>();
@@ -147,6 +127,27 @@ class McapRecords {
   void met_time(std::uint64_t log_time_ns) { last_time_ = log_time_ns; }
 
  private:
+  /// Largest content in bytes that is read; larger records are skipped.
+  static constexpr std::uint64_t kLargestContent = kLargestBlock;
+  /// Bytes of a message before its data.
+  static constexpr std::uint64_t kMessageHead = 22;
+  static constexpr std::uint64_t kFooterSize = 20, kDataEndSize = 4;
+  /// After damage a message is accepted only if it is less than this later than the last one.
+  static constexpr std::uint64_t kLikelyStep_ns = 86'400'000'000'000;
+  static constexpr std::size_t kSearchedAtOnce = 1 << 16;
+
+  /// True when `content`, the beginning of a chunk's content of this size, has a valid chunk header.
+  static bool is_chunk(std::string_view content, std::uint64_t size) {
+    ByteCursor chunk(content);
+    const auto first = chunk.take<std::uint64_t>(), last = chunk.take<std::uint64_t>();
+    chunk.take<std::uint64_t>();
+    chunk.take<std::uint32_t>();
+    const std::string_view packing = chunk.text();
+    const auto records = chunk.take<std::uint64_t>();
+    return chunk.ok() && first <= last && (packing.empty() || packing == "lz4" || packing == "zstd") &&
+           records == size - chunk.position();
+  }
+
   /// True when a record that find_record() can recognise is at the front of `bytes`.
   bool is_record(std::string_view bytes) const {
     if (bytes.starts_with(kMcapMagic)) return true;  // another recording follows
@@ -154,7 +155,7 @@ class McapRecords {
     const auto op = static_cast<McapOp>(head.take<unsigned char>());
     const auto size = head.take<std::uint64_t>();
     if (!head.ok() || size > bytes_.left()) return false;
-    if (op == McapOp::chunk) return is_mcap_chunk(head.rest(), size);
+    if (op == McapOp::chunk) return is_chunk(head.rest(), size);
     if (op == McapOp::data_end) return size == kDataEndSize;
     if (op == McapOp::footer)
       return size == kFooterSize && head.rest()
@@ -242,7 +243,7 @@ class McapRecords {
     constexpr std::size_t kHeadOfAChunk = 64;
     bytes_.fill(kMcapRecordHead + kHeadOfAChunk);
     const std::string_view content = bytes_.view().substr(kMcapRecordHead);
-    if (op == McapOp::chunk) return is_mcap_chunk(content, size);
+    if (op == McapOp::chunk) return is_chunk(content, size);
     ByteCursor message(content);
     return op == McapOp::attachment ||
            (op == McapOp::message && topics_.topic_of(message.take<std::uint16_t>()) >= 0);
@@ -258,7 +259,7 @@ class McapRecords {
     const bool whole = is_mcap_op(op) && size <= kLargestContent && bytes_.fill(kMcapRecordHead + size);
     // A chunk in which the file ends still holds the messages before the end.
     cut_ = !whole && is_mcap_op(op) && size <= kLargestContent && size > bytes_.left() &&
-           op_ == McapOp::chunk && is_mcap_chunk(bytes_.view().substr(kMcapRecordHead), size);
+           op_ == McapOp::chunk && is_chunk(bytes_.view().substr(kMcapRecordHead), size);
     if (!whole && !cut_ && !too_large_) return false;
     size_ = std::min<std::size_t>(size, bytes_.view().size() - kMcapRecordHead);
     record_size_ = kMcapRecordHead + (too_large_ ? size : size_);

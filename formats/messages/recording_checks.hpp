@@ -16,10 +16,6 @@
 // Checks of a recording while its messages are read.
 namespace faultline {
 
-/// A stream continues alone when so many of its messages (more if it sends several per row) follow each other
-/// without one of the main stream.
-inline constexpr std::int64_t kAlone = 10;
-
 /// Counts the messages of streams that could be rows of the log, such as those with other joint names or on
 /// another topic, so that each lost one is reported.
 class RivalStreams {
@@ -59,6 +55,10 @@ class RivalStreams {
   }
 
  private:
+  /// A stream continues alone when so many of its messages (more if it sends several per row) follow each
+  /// other without one of the main stream.
+  static constexpr std::int64_t kAlone = 10;
+
   /// Counts the messages that are in no row, without those already counted as lost rows.
   void count(std::int64_t taken) {
     for (std::size_t s = 0; s < since_.size(); ++s) {
@@ -74,20 +74,6 @@ class RivalStreams {
   bool any_came_ = false;            ///< since the last row
   std::int64_t between_rows_ = 0;    ///< messages that are in no row
 };
-
-/// rad or m. Closer positions of two publishers count as one; the codes of an encoder at rest may alternate
-/// by less.
-inline constexpr double kApart = 1e-2;
-inline constexpr double kNear = 0.25;                 ///< share of the distance to the last row
-inline constexpr double kMostShare = 0.5;             ///< share of rows that may look like two publishers
-inline constexpr std::int64_t kFewestJointRows = 20;  ///< rows that the check for two publishers needs
-
-inline double distance(const std::vector<double>& position, const std::vector<double>& other) {
-  double largest = 0.0;
-  for (std::size_t j = 0; j < std::min(position.size(), other.size()); ++j)
-    largest = std::fmax(largest, std::abs(position[j] - other[j]));
-  return largest;
-}
 
 /// Tests if the positions of the rows are those of two publishers in turn: each row is near the one before
 /// the last, not near the last one.
@@ -111,6 +97,20 @@ class AlternatingRows {
   }
 
  private:
+  /// rad or m. Closer positions of two publishers count as one; the codes of an encoder at rest may alternate
+  /// by less.
+  static constexpr double kApart = 1e-2;
+  static constexpr double kNear = 0.25;                 ///< share of the distance to the last row
+  static constexpr double kMostShare = 0.5;             ///< share of rows that may look like two publishers
+  static constexpr std::int64_t kFewestJointRows = 20;  ///< rows that the check for two publishers needs
+
+  static double distance(const std::vector<double>& position, const std::vector<double>& other) {
+    double largest = 0.0;
+    for (std::size_t j = 0; j < std::min(position.size(), other.size()); ++j)
+      largest = std::fmax(largest, std::abs(position[j] - other[j]));
+    return largest;
+  }
+
   std::vector<double> last_, one_before_;
   std::int64_t rows_ = 0, alternating_ = 0;
 };
