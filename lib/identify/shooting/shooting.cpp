@@ -70,28 +70,29 @@ class PriorCost : public ceres::CostFunction {
   double value_, std_;
 };
 
+/// Returns the index of a parameter among the free ones; -1 if it is not free.
+int free_index(const ShootingProblem& problem, int parameter) {
+  const auto it = std::find(problem.free.begin(), problem.free.end(), parameter);
+  return it == problem.free.end() ? -1 : static_cast<int>(it - problem.free.begin());
+}
+
 /// Adds every excerpt, every prior and the bounds of the parameters to `costs`.
 void add_costs(const ShootingProblem& problem, ShootingEvaluation& evaluation, ceres::Problem& costs) {
   const ParameterSpace& space = problem.space;
-  const std::vector<int>& free = problem.free;
   double* parameters = evaluation.values();
-  const int count = static_cast<int>(free.size());
+  const int count = static_cast<int>(problem.free.size());
   for (std::size_t i = 0; i < evaluation.count(); ++i)
     costs.AddResidualBlock(new ExcerptCost(evaluation, static_cast<int>(i), 2 * space.joints(), count),
                            nullptr, evaluation.state(i), parameters);
-  const auto index_of = [&](int p) {
-    const auto it = std::find(free.begin(), free.end(), p);
-    return it == free.end() ? -1 : static_cast<int>(it - free.begin());
-  };
   for (const auto& prior : problem.priors)
-    if (const int k = index_of(prior.parameter); k >= 0)
+    if (const int k = free_index(problem, prior.parameter); k >= 0)
       costs.AddResidualBlock(new PriorCost(k, prior.value, prior.std, count), nullptr, parameters);
-  if (const int k = index_of(space.timing()); k >= 0) {
+  if (const int k = free_index(problem, space.timing()); k >= 0) {
     costs.SetParameterLowerBound(parameters, k, -1.0);
     costs.SetParameterUpperBound(parameters, k, 2.0);
   }
   for (int j = 0; j < space.joints(); ++j)
-    if (const int k = index_of(space.log_width(j)); k >= 0) {
+    if (const int k = free_index(problem, space.log_width(j)); k >= 0) {
       costs.SetParameterLowerBound(parameters, k, elementary::log(evaluation.narrowest_width(j)));
       costs.SetParameterUpperBound(parameters, k, elementary::log(0.5));
     }
@@ -167,15 +168,20 @@ double total_s(std::span<const Excerpt> excerpts) {
 }
 
 /// Computes the covariance of the free parameters for white residuals; false if it is singular.
-bool white_covariance(ceres::Problem& costs, ShootingEvaluation& evaluation, Eigen::MatrixXd& out) {
-  ceres::Problem::EvaluateOptions options;
-  options.num_threads = 1;
-  for (std::size_t i = 0; i < evaluation.count(); ++i)
-    options.parameter_blocks.push_back(evaluation.state(i));
-  options.parameter_blocks.push_back(evaluation.values());
-  ceres::CRSMatrix jacobian;
-  if (!costs.Evaluate(options, nullptr, nullptr, nullptr, &jacobian)) return false;
-  return trailing_covariance(jacobian, jacobian.num_cols - evaluation.free(), out);
+bool white_covariance(const ShootingProblem& problem, const ShootingEvaluation& evaluation,
+                      Eigen::MatrixXd& out) {
+  const auto free = static_cast<Eigen::Index>(problem.free.size());
+  std::vector<Eigen::MatrixXd> groups(1, Eigen::MatrixXd(0, free));  // the priors, then each excerpt
+  for (const ParameterPrior& prior : problem.priors)
+    if (const int k = free_index(problem, prior.parameter); k >= 0) {
+      groups[0].conservativeResize(groups[0].rows() + 1, Eigen::NoChange);
+      groups[0].bottomRows<1>() = Eigen::RowVectorXd::Unit(free, k) / prior.std;
+    }
+  for (const ReducedExcerpt& r : evaluation.reduced) {
+    Eigen::MatrixXd& group = groups.emplace_back(r.residual.size(), r.by_state.cols() + free);
+    group << r.by_state, r.by_parameter;
+  }
+  return trailing_covariance(groups, free, out);
 }
 
 /// Returns the sandwich covariance over blocks of about a second: it includes correlated residuals.
@@ -216,11 +222,10 @@ Eigen::MatrixXd widened(const Eigen::MatrixXd& white, const Eigen::MatrixXd& rob
 }
 
 /// Computes the covariance of all parameters of the space, zero for those not free; false if it is singular.
-bool measure_covariance(const ShootingProblem& problem, ceres::Problem& costs, ShootingEvaluation& evaluation,
-                        ShootingFit& fit) {
+bool measure_covariance(const ShootingProblem& problem, ShootingEvaluation& evaluation, ShootingFit& fit) {
   evaluation.PrepareForEvaluation(true, true);
   Eigen::MatrixXd white;
-  if (!white_covariance(costs, evaluation, white)) return false;
+  if (!white_covariance(problem, evaluation, white)) return false;
   const Eigen::MatrixXd wide = widened(white, sandwich(evaluation, problem.excerpts, white));
   const std::vector<int>& free = problem.free;
   for (std::size_t i = 0; i < free.size(); ++i)
@@ -263,7 +268,7 @@ ShootingFit fit_shooting(const ShootingProblem& problem, const Progress& progres
   fit.reason =
       fmt::format("{} iterations in {} rounds over {} segments; {}", iterations, rounds,
                   problem.excerpts.size(), fit.converged ? "converged" : "stopped before convergence");
-  if (!measure_covariance(problem, costs, evaluation, fit)) {
+  if (!measure_covariance(problem, evaluation, fit)) {
     fit.converged = false;
     fit.reason += "; the covariance is singular";
   }

@@ -36,7 +36,6 @@ class ShootingEvaluation : public ceres::EvaluationCallback {
   /// Returns the start of excerpt i.
   double* state(std::size_t i) { return variables_.data() + 2 * space_.joints() * i; }
   std::size_t count() const { return excerpts_.size(); }
-  int free() const { return static_cast<int>(free_.size()); }
   int rows() const { return 2 * space_.joints() + static_cast<int>(free_.size()) + 1; }
 
   /// Returns the width below which the integration would no longer follow the friction, rad/s or m/s.
