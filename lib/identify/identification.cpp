@@ -2,6 +2,7 @@
 #include "lib/identify/identification.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lib/core/matrix/decompositions.hpp"
@@ -9,39 +10,22 @@
 namespace faultline {
 
 const char* to_string(IdentificationStatus status) {
-  switch (status) {
-    case IdentificationStatus::not_run:
-      return "not_run";
-    case IdentificationStatus::converged:
-      return "converged";
-    case IdentificationStatus::not_converged:
-      return "not_converged";
-    case IdentificationStatus::poorly_excited:
-      return "poorly_excited";
-    case IdentificationStatus::poorly_explained:
-      return "poorly_explained";
-    case IdentificationStatus::unexplained:
-      return "unexplained";
-  }
-  return "not_run";
+  static constexpr std::array kNames{"not_run",        "converged",        "not_converged",
+                                     "poorly_excited", "poorly_explained", "unexplained"};
+  static_assert(kNames.size() == static_cast<std::size_t>(IdentificationStatus::unexplained) + 1);
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+const char* to_string(IdentifyMethod method) {
+  static constexpr std::array kNames{"automatic", "weak_form", "output_error"};
+  static_assert(kNames.size() == static_cast<std::size_t>(IdentifyMethod::output_error) + 1);
+  return kNames[static_cast<std::size_t>(method)];
 }
 
 void Identification::take(const std::optional<FitStatus>& found) {
   if (!found) return;
   status = found->status;
   reason += "; " + found->reason;
-}
-
-const char* to_string(IdentifyMethod method) {
-  switch (method) {
-    case IdentifyMethod::automatic:
-      return "automatic";
-    case IdentifyMethod::weak_form:
-      return "weak_form";
-    case IdentifyMethod::output_error:
-      return "output_error";
-  }
-  return "automatic";
 }
 
 Robot robot_with(const Robot& robot, const ParameterSpace& space, const Eigen::VectorXd& parameters) {

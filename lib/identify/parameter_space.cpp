@@ -5,6 +5,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -118,6 +119,14 @@ JointVector draw(Random& random, int n, double scale) {
   return v;
 }
 
+/// Returns the inertial numbers of the links, and 0 for the rotors: 11 n.
+Eigen::VectorXd link_numbers(const Chain& chain) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(chain.joints() * (kLinkParameters + 1));
+  for (int i = 0; i < chain.joints(); ++i)
+    out.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
+  return out;
+}
+
 /// Returns the torque of every inertial number and rotor at random states: (probes n) x (11 n).
 Eigen::MatrixXd probe(const Chain& chain) {
   const int n = chain.joints();
@@ -152,34 +161,17 @@ void explain(ParameterSpace& space, const Eigen::VectorXd& coefficients, const s
 
 /// Returns a name such as "rc_1_100": the cosine of joint 1's ripple of rate 100 1/rad.
 std::string extra_name(const ParameterSpace& space, const ExtraTerm& term) {
-  const int joint = term.joint + 1;
-  const auto shared = [&](const char* what) {
-    std::string joints;
+  static constexpr std::array kNames{"fl", "jr", "fv", "fc", "rc", "rs", "gc"};
+  static_assert(kNames.size() == static_cast<std::size_t>(ExtraKind::gear_compliance) + 1);
+  std::string name = fmt::format("{}_", kNames[static_cast<std::size_t>(term.kind)]);
+  if (is_of_shared_drive(term.kind)) {
     const Eigen::VectorXd& along = space.chain.shared_drives[term.index].along;
     for (int j = 0; j < space.joints(); ++j)
-      if (along[j] != 0.0) joints += fmt::format("{}{}", along[j] > 0.0 ? "+" : "-", j + 1);
-    return fmt::format("{}_{}", what, joints);
-  };
-  const auto ripple = [&](const char* what) {
-    return fmt::format("{}_{}_{:.5g}", what, joint, space.chain.ripples[term.index].rate);
-  };
-  switch (term.kind) {
-    case ExtraKind::load_friction:
-      return fmt::format("fl_{}", joint);
-    case ExtraKind::shared_inertia:
-      return shared("jr");
-    case ExtraKind::shared_viscous:
-      return shared("fv");
-    case ExtraKind::shared_coulomb:
-      return shared("fc");
-    case ExtraKind::ripple_cosine:
-      return ripple("rc");
-    case ExtraKind::ripple_sine:
-      return ripple("rs");
-    case ExtraKind::gear_compliance:
-      return fmt::format("gc_{}", joint);
+      if (along[j] != 0.0) name += fmt::format("{}{}", along[j] > 0.0 ? "+" : "-", j + 1);
+    return name;
   }
-  return "";
+  name += std::to_string(term.joint + 1);
+  return is_ripple(term.kind) ? fmt::format("{}_{:.5g}", name, space.chain.ripples[term.index].rate) : name;
 }
 
 std::string extra_unit(ExtraKind kind, AxisKind axis) {
@@ -276,9 +268,8 @@ Chain chain_from(const ParameterSpace& space, const Eigen::VectorXd& p) {
 
 Eigen::VectorXd parameters_of(const ParameterSpace& space, Chain chain, double phi) {
   const int n = space.joints();
-  Eigen::VectorXd numbers(n * (kLinkParameters + 1)), p(space.count());
+  Eigen::VectorXd numbers = link_numbers(chain), p(space.count());
   for (int i = 0; i < n; ++i) {
-    numbers.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
     const double rotor = chain.rotor_inertia.empty() ? 0.0 : chain.rotor_inertia[i];
     numbers[n * kLinkParameters + i] = rotor - space.chain.rotor_inertia[i];
   }
@@ -319,33 +310,22 @@ double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& values,
   return largest;
 }
 
+bool is_given_exactly(const ParameterSpace& space, const Robot& robot, int p) {
+  std::string name = space.name(p);
+  std::erase(name, '_');
+  if (name.rfind("offset", 0) == 0) name.replace(0, 6, "fo");
+  const auto it = robot.known.find(name);
+  return p >= space.rigid() && it != robot.known.end() && it->second.std == 0.0;
+}
+
 WantedParameters wanted_parameters(const ParameterSpace& space, const Robot& robot,
                                    const std::vector<int>& still, bool try_offsets) {
   WantedParameters wanted{std::vector<bool>(space.count(), true), std::vector<bool>(space.count(), false)};
-  const auto is_exact = [&](const std::string& name) {
-    const auto it = robot.known.find(name);
-    return it != robot.known.end() && it->second.std == 0.0;
-  };
-  for (int p = 0; p < space.rigid(); ++p)
-    if (space.base[p].is_rotor) wanted.optional[p] = true;
-  for (int j = 0; j < space.joints(); ++j) {
-    const std::pair<const char*, int> friction[] = {{"fv", space.viscous(j)},
-                                                    {"fc", space.coulomb(j)},
-                                                    {"fo", space.offset(j)},
-                                                    {"fb", space.bend(j)},
-                                                    {"fs", space.skew(j)}};
-    for (const auto& [name, p] : friction) {
-      wanted.optional[p] = p >= space.offset(0);
-      wanted.asked[p] = (try_offsets || !wanted.optional[p]) && !has_joint(still, j) &&
-                        !is_exact(name + std::to_string(j + 1));
-    }
-  }
-  for (int p = space.extra_begin(); p < space.timing(); ++p) {
-    const int joint = space.joint_of(p);
-    const bool given =
-        space.extra_at(p).kind == ExtraKind::load_friction && is_exact("fl" + std::to_string(joint + 1));
-    wanted.optional[p] = true;
-    wanted.asked[p] = !given && !has_joint(still, joint);
+  for (int p = 0; p < space.rigid(); ++p) wanted.optional[p] = space.base[p].is_rotor;
+  for (int p = space.rigid(); p < space.timing(); ++p) {
+    wanted.optional[p] = p >= space.offset(0);
+    wanted.asked[p] = (try_offsets || !wanted.optional[p] || space.is_extra(p)) &&
+                      !has_joint(still, space.joint_of(p)) && !is_given_exactly(space, robot, p);
   }
   wanted.asked[space.timing()] = robot.log.torque_between_samples == TorqueTiming::unknown;
   return wanted;
@@ -358,11 +338,7 @@ Eigen::MatrixXd payload_columns(const ParameterSpace& space) {
   for (int link = 0; link < n; ++link) {
     Chain chain = space.chain;
     for (LinkInertia& l : chain.links) l = {};
-    chain = with_payload(chain, link, 1.0);
-    Eigen::VectorXd numbers = Eigen::VectorXd::Zero(n * (kLinkParameters + 1));
-    for (int i = 0; i < n; ++i)
-      numbers.segment<kLinkParameters>(i * kLinkParameters) = to_vector(chain.links[i]);
-    out.col(link) = map * numbers;
+    out.col(link) = map * link_numbers(with_payload(chain, link, 1.0));
   }
   return out;
 }

@@ -85,6 +85,9 @@ bool has_joint(const std::vector<int>& joints, int joint);
 /// Returns the largest of the values, one a joint, among the joints of the same kind as `joint`.
 double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& values, int joint);
 
+/// Whether the robot file gives a parameter of friction exactly (Robot::known); false for base parameters.
+bool is_given_exactly(const ParameterSpace& space, const Robot& robot, int parameter);
+
 /// Parameters to be estimated from logs.
 struct WantedParameters {
   std::vector<bool> asked;     ///< not given exactly, nor friction of a joint that never moves

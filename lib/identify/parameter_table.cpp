@@ -14,14 +14,6 @@
 namespace faultline {
 namespace {
 
-bool is_given(const Identification& id, int p) {
-  std::string name = id.space.name(p);
-  std::erase(name, '_');
-  if (name.rfind("offset", 0) == 0) name.replace(0, 6, "fo");
-  const auto it = id.robot.known.find(name);
-  return p >= id.space.rigid() && it != id.robot.known.end() && it->second.std == 0.0;
-}
-
 /// Returns the still joints that affect a parameter: its own for friction, all for other parameters.
 std::vector<int> still_for(const Identification& id, int p, const std::vector<int>& still) {
   if (p < id.space.rigid() || p == id.space.timing()) return still;
@@ -38,32 +30,27 @@ std::string not_excited(const std::vector<int>& still) {
                      fmt::join(still, ", "));
 }
 
-std::string why_offset(const Identification& id, int p) {
-  return fmt::format("left at {1:g}: {0}",
-                     has_fast_log(id)
-                         ? "it does not lower the held-out error"
-                         : fmt::format("no log has a sample period below {:g} s", kShowsFriction_s),
-                     id.estimate[p]);
-}
-
-std::string why_width(const Identification& id, int p) {
-  const std::string reason =
-      id.method == IdentifyMethod::weak_form ? "the momentum balance hardly depends on it"
-      : !has_fast_log(id) ? fmt::format("no log has a sample period below {:g} s", kShowsFriction_s)
-                          : "the logs do not determine this joint's Coulomb friction";
-  return fmt::format("left at {:g}: {}", elementary::exp(id.estimate[p]), reason);
+/// Returns why a parameter that the logs might determine keeps its nominal value; empty if it does not.
+std::string why_kept(const Identification& id, int p, const TableFacts& facts) {
+  const std::string useless = "it does not lower the held-out error",
+                    slow = fmt::format("no log has a sample period below {:g} s", kShowsFriction_s);
+  if (p > id.space.timing()) {
+    if (id.method == IdentifyMethod::weak_form) return "the momentum balance hardly depends on it";
+    return has_fast_log(id) ? "the logs do not determine this joint's Coulomb friction" : slow;
+  }
+  if (p < id.space.rigid()) return id.space.base[p].is_rotor && !(id.covariance(p, p) > 0.0) ? useless : "";
+  if (facts.asked[p] || p < id.space.offset(0)) return "";
+  if (p == id.space.timing()) return "the robot file states how torque runs between samples";
+  return has_fast_log(id) ? useless : slow;
 }
 
 std::string why_not(const Identification& id, int p, const TableFacts& facts) {
   const std::vector<int> still = still_for(id, p, facts.still);
   if (!still.empty() && p != id.space.timing()) return not_excited(still);
-  if (p > id.space.timing()) return why_width(id, p);
-  if (p < id.space.rigid() && id.space.base[p].is_rotor && !(id.covariance(p, p) > 0.0))
-    return fmt::format("left at {:g}: it does not lower the held-out error", id.estimate[p]);
-  if (!facts.asked[p] && p == id.space.timing())
-    return fmt::format("left at {:g}: the robot file states how torque runs between samples", id.estimate[p]);
-  if (p < id.space.rigid()) return why_not_identifiable(facts);
-  return p >= id.space.offset(0) && !facts.asked[p] ? why_offset(id, p) : not_excited(still);
+  if (const std::string why = why_kept(id, p, facts); !why.empty())
+    return fmt::format("left at {:g}: {}",
+                       p > id.space.timing() ? elementary::exp(id.estimate[p]) : id.estimate[p], why);
+  return p < id.space.rigid() ? why_not_identifiable(facts) : not_excited(still);
 }
 
 ParameterEstimate entry(const WeakFit& weak, const TableFacts& facts, const Identification& id, int p) {
@@ -72,7 +59,7 @@ ParameterEstimate entry(const WeakFit& weak, const TableFacts& facts, const Iden
   e.name = id.space.name(p);
   e.unit = id.space.unit(p);
   e.value = is_width ? elementary::exp(id.estimate[p]) : id.estimate[p];
-  e.identifiable = is_given(id, p) || (is_free && (is_width || !weak.confounded[p]));
+  e.identifiable = is_given_exactly(id.space, id.robot, p) || (is_free && (is_width || !weak.confounded[p]));
   e.std = std::sqrt(id.covariance(p, p)) * (is_width ? e.value : 1.0);
   if (!e.identifiable) e.why_not = why_not(id, p, facts);
   if (!e.identifiable) e.std = std::numeric_limits<double>::quiet_NaN();

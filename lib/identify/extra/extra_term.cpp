@@ -47,27 +47,16 @@ std::vector<ExtraTerm> extra_terms_of(const Chain& chain, const std::vector<doub
 
 double* extra_value(Chain& chain, const ExtraTerm& term) {
   const auto index = static_cast<std::size_t>(term.index);
-  const auto shared = [&](double SharedDrive::*value) -> double* {
-    return index < chain.shared_drives.size() ? &(chain.shared_drives[index].*value) : nullptr;
-  };
-  const auto ripple = [&](double Ripple::*value) -> double* {
-    return index < chain.ripples.size() ? &(chain.ripples[index].*value) : nullptr;
-  };
-  switch (term.kind) {
-    case ExtraKind::load_friction:
-      return &chain.friction[index].load;
-    case ExtraKind::shared_inertia:
-      return shared(&SharedDrive::rotor_inertia);
-    case ExtraKind::shared_viscous:
-      return shared(&SharedDrive::viscous);
-    case ExtraKind::shared_coulomb:
-      return shared(&SharedDrive::coulomb);
-    case ExtraKind::ripple_cosine:
-      return ripple(&Ripple::cosine);
-    case ExtraKind::ripple_sine:
-      return ripple(&Ripple::sine);
-    case ExtraKind::gear_compliance:
-      return nullptr;
+  if (term.kind == ExtraKind::load_friction) return &chain.friction[index].load;
+  if (is_ripple(term.kind) && index < chain.ripples.size()) {
+    Ripple& ripple = chain.ripples[index];
+    return term.kind == ExtraKind::ripple_cosine ? &ripple.cosine : &ripple.sine;
+  }
+  if (is_of_shared_drive(term.kind) && index < chain.shared_drives.size()) {
+    SharedDrive& drive = chain.shared_drives[index];
+    return term.kind == ExtraKind::shared_inertia   ? &drive.rotor_inertia
+           : term.kind == ExtraKind::shared_viscous ? &drive.viscous
+                                                    : &drive.coulomb;
   }
   return nullptr;
 }
@@ -76,30 +65,15 @@ JointVector extra_torque(const Chain& chain, const ExtraTerm& term, const JointV
                          const JointVector& dq, const JointVector& ddq, const JointVector& carried) {
   JointVector out = JointVector::Zero(chain.joints());
   const int j = term.joint;
-  switch (term.kind) {
-    case ExtraKind::load_friction:
-      out[j] = std::abs(carried[j]) * elementary::tanh(dq[j] / chain.friction[j].width);
-      break;
-    case ExtraKind::shared_inertia: {
-      const SharedDrive& f = chain.shared_drives[term.index];
-      out = f.along * f.speed(ddq.data());
-      break;
-    }
-    case ExtraKind::shared_viscous:
-    case ExtraKind::shared_coulomb: {
-      const SharedDrive& f = chain.shared_drives[term.index];
-      const double speed = f.speed(dq.data());
-      out = f.along * (term.kind == ExtraKind::shared_viscous ? speed : elementary::tanh(speed / f.width));
-      break;
-    }
-    case ExtraKind::ripple_cosine:
-      out[j] = elementary::cos(chain.ripples[term.index].rate * q[j]);
-      break;
-    case ExtraKind::ripple_sine:
-      out[j] = elementary::sin(chain.ripples[term.index].rate * q[j]);
-      break;
-    case ExtraKind::gear_compliance:
-      break;
+  if (term.kind == ExtraKind::load_friction) {
+    out[j] = std::abs(carried[j]) * elementary::tanh(dq[j] / chain.friction[j].width);
+  } else if (is_ripple(term.kind)) {
+    const double angle = chain.ripples[term.index].rate * q[j];
+    out[j] = term.kind == ExtraKind::ripple_cosine ? elementary::cos(angle) : elementary::sin(angle);
+  } else if (is_of_shared_drive(term.kind)) {
+    const SharedDrive& f = chain.shared_drives[term.index];
+    const double motion = f.speed(term.kind == ExtraKind::shared_inertia ? ddq.data() : dq.data());
+    out = f.along * (term.kind == ExtraKind::shared_coulomb ? elementary::tanh(motion / f.width) : motion);
   }
   return out;
 }
