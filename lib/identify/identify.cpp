@@ -73,13 +73,15 @@ std::optional<FitStatus> hardly_determined(const PhysicalFit& physical, Identifi
       fmt::format("these motions hardly determine {}", fmt::join(physical.hardly_identifiable, ", "))};
 }
 
-/// The parameter space on the lengths of the links that were found.
-struct SizedSpace {
-  ParameterSpace space;
-  std::optional<std::vector<double>> lengths;  ///< if the base parameters need another fit with them
+/// An identification, and the lengths to fit again with, if any.
+struct Round {
+  Identification id;
+  std::optional<std::vector<double>> lengths;
 };
 
-SizedSpace sized_space(const PhysicalFit& physical, const Identification& id) {
+/// Returns the identification in the parameter space on the lengths of the links that were found, or with
+/// these lengths if the base parameters need another fit with them.
+Round with_sizes(const PhysicalFit& physical, Identification id) {
   Robot sized = id.robot;
   sized.chain.length = physical.lengths;
   ParameterSpace space = parameter_space(sized);
@@ -88,8 +90,11 @@ SizedSpace sized_space(const PhysicalFit& physical, const Identification& id) {
   space.chain.ripples = id.space.chain.ripples;
   space.chain.shared_drives = id.space.chain.shared_drives;
   const bool same_base = space.base.size() == id.space.base.size() && !depends_on_lengths(id.space, space);
-  SizedSpace out{same_base ? std::move(space) : id.space, {}};
-  if (!same_base && differ(physical, id.robot.chain.length)) out.lengths = physical.lengths;
+  Round out{std::move(id), {}};
+  if (same_base)
+    out.id.space = std::move(space);
+  else if (differ(physical, out.id.robot.chain.length))
+    out.lengths = physical.lengths;
   return out;
 }
 
@@ -163,12 +168,6 @@ std::optional<Issue> rates_issue(const std::vector<IdentifiedLog>& logs) {
           shortest->sample_period_s, shortest->path, longest->sample_period_s, longest->path));
 }
 
-/// An identification, and the lengths to fit again with, if any.
-struct Round {
-  Identification id;
-  std::optional<std::vector<double>> lengths;
-};
-
 Round fit_groups(const std::vector<PayloadGroup>& groups, std::size_t logs, const Robot& robot,
                  const IdentifyOptions& options, const Progress& progress) {
   AlikeFit unloaded = fit_alike(groups[0].logs, robot, options, progress);
@@ -186,13 +185,13 @@ Round fit_groups(const std::vector<PayloadGroup>& groups, std::size_t logs, cons
   PhysicalFit physical = physical_parameters(id.robot, id.space, estimates);
   if (physical.contradiction > kContradicts) id.issues.add(contradiction_issue(physical.contradiction));
   if (!physical.guessed_lengths.empty()) id.issues.add(guess_issue(physical.guessed_lengths));
-  SizedSpace sized = sized_space(physical, id);
-  id.space = std::move(sized.space);
-  id.take(hardly_determined(physical, id.status));
-  id.take(negative_inertia(id));
-  id.physical_parameters = std::move(physical.parameters);
-  id.robot = robot_with(id.robot, id.space, id.estimate);
-  return {std::move(id), std::move(sized.lengths)};
+  Round round = with_sizes(physical, std::move(id));
+  Identification& sized = round.id;
+  sized.take(hardly_determined(physical, sized.status));
+  sized.take(negative_inertia(sized));
+  sized.physical_parameters = std::move(physical.parameters);
+  sized.robot = robot_with(sized.robot, sized.space, sized.estimate);
+  return round;
 }
 
 /// Whether lengths that the robot file does not state change the torques of given base parameters.
