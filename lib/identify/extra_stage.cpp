@@ -149,20 +149,9 @@ ModelDraft moved_to(const ParameterSpace& to, const Robot& robot, ModelDraft dra
   return hold_known_load(to, robot, std::move(draft));
 }
 
-/// Result of trying extra terms.
-struct Tried {
-  std::vector<bool> stay;        ///< by parameter
-  std::vector<double> gain;      ///< by joint
-  std::vector<ModelTerm> terms;  ///< in the order of the trials
-
-  bool scales() const {
-    return std::any_of(gain.begin(), gain.end(), [](double g) { return g != 1.0; });
-  }
-};
-
-/// Tries the extra terms. No gains are tried if logs have payloads: these logs are fitted apart and must use
-/// the same gains.
-Tried try_candidates(const Gathered& gathered, const Robot& robot, const ModelDraft& draft) {
+/// Returns the choice after trying the extra terms. No gains are tried if logs have payloads: these logs are
+/// fitted apart and must use the same gains.
+ModelChoice try_candidates(const Gathered& gathered, const Robot& robot, const ModelDraft& draft) {
   const ParameterSpace& space = gathered.windows.space;
   const Chooser chooser(gathered.windows, nominal_timing(robot), draft.nominal);
   ModelChoice c = draft.choice;
@@ -172,10 +161,9 @@ Tried try_candidates(const Gathered& gathered, const Robot& robot, const ModelDr
   std::vector<bool> counts;
   for (int j = 0; j < space.joints(); ++j) counts.push_back(!has_joint(gathered.windows.still, j));
   if (robot.payloads.empty()) c = choose_gains(chooser, counts, std::move(c));
-  Tried out{c.wanted, c.weak.gain, c.terms};
   for (int p = space.extra_begin(); p < space.timing(); ++p)
-    out.stay[p] = out.stay[p] || draft.nominal[p] != 0.0;
-  return out;
+    c.wanted[p] = c.wanted[p] || draft.nominal[p] != 0.0;
+  return c;
 }
 
 /// Renews the columns of load friction and springs with the robot as fitted, since they were computed without
@@ -220,18 +208,20 @@ DraftedModel take_extra_terms(std::span<LogSource* const> logs, const Robot& rob
   const double phi = std::clamp(draft.torque.fit.parameters[draft.torque.space.timing()], 0.0, 1.0);
   const ExtraSetting setting{draft.torque.shift, phi, draft.torque.fit.parameters};
   gathered = gather_again(logs, wide, setting, std::move(gathered));
-  const Tried tried = try_candidates(gathered, robot, moved_to(wide, robot, draft));
+  const ModelChoice tried = try_candidates(gathered, robot, moved_to(wide, robot, draft));
 
-  const std::vector<int> kept = kept_terms(wide, tried.stay);
+  const std::vector<double>& gain = tried.weak.gain;
+  const bool scales = std::any_of(gain.begin(), gain.end(), [](double g) { return g != 1.0; });
+  const std::vector<int> kept = kept_terms(wide, tried.wanted);
   const ParameterSpace space = pruned(wide, kept);
-  if (tried.scales()) {
-    gathered.torque_gain = tried.gain;
+  if (scales) {
+    gathered.torque_gain = gain;
     gathered = gather_again(logs, space, setting, std::move(gathered));
   } else {
     for (WeakWindows& set : gathered.windows.sets) set.keep_extra(kept);
     gathered.windows.space = space;
   }
-  const bool as_before = kept.empty() && draft.torque.space.extra.empty() && !tried.scales();
+  const bool as_before = kept.empty() && draft.torque.space.extra.empty() && !scales;
   DraftedModel out = as_before ? std::move(first) : choose_again(logs, space, robot, std::move(first));
   const std::vector<ModelTerm> terms = listed(tried.terms);
   out.draft.choice.terms.insert(out.draft.choice.terms.end(), terms.begin(), terms.end());
