@@ -287,10 +287,10 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   Identification& id = fit.id;
   id.robot = robot;
   id.space = parameter_space(robot);
-  GatheredLogs read = gather(logs, id.space, kShortestWindow_s, kMostWindows, progress);
+  Gathered read = gather(logs, id.space, kShortestWindow_s, kMostWindows, progress);
   id.logs = std::move(read.logs);
   id.issues = std::move(read.issues);
-  DraftedModel model = draft_model(logs, std::move(read.gathered), options, id, id.issues);
+  DraftedModel model = draft_model(logs, std::move(read), options, id, id.issues);
   const Gathered& gathered = model.gathered;
   const std::vector<int>& still = gathered.windows.still;
   const ModelDraft& draft = model.draft;

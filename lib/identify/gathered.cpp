@@ -131,16 +131,15 @@ bool Measurements::still(int j) const {
   return steps_[j] > 0.0 && step_square_[j] / steps_[j] > variance;  // 2 for noise, near 0 for motion
 }
 
-GatheredLogs gather(std::span<LogSource* const> logs, const ParameterSpace& space, double shortest_window_s,
-                    int max_windows, const Progress& progress) {
-  GatheredLogs all;
-  Gathered& out = all.gathered;
+Gathered gather(std::span<LogSource* const> logs, const ParameterSpace& space, double shortest_window_s,
+                int max_windows, const Progress& progress) {
+  Gathered out;
   double period_s = 0.0;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress("reading", static_cast<double>(i) / static_cast<double>(logs.size()));
     out.surveys.push_back(survey_log(*logs[i], space.joints()));
-    all.issues.merge(logs[i]->issues());
-    all.issues.merge(survey_issues(out.surveys.back()));
+    out.issues.merge(logs[i]->issues());
+    out.issues.merge(survey_issues(out.surveys.back()));
     period_s = std::max(period_s, out.surveys.back().summary.period_s);
   }
   out.left_out.assign(logs.size(), false);
@@ -155,7 +154,7 @@ GatheredLogs gather(std::span<LogSource* const> logs, const ParameterSpace& spac
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const LogIdentity& from = logs[i]->identity();
     const StretchSummary& read = out.surveys[i].summary;
-    all.logs.push_back({.path = from.path,
+    out.logs.push_back({.path = from.path,
                         .sha256 = from.sha256,
                         .rows = read.rows,
                         .rows_used = out.windows.sets[0].rows_used(static_cast<int>(i)),
@@ -171,7 +170,7 @@ GatheredLogs gather(std::span<LogSource* const> logs, const ParameterSpace& spac
                     windows, kWindows));
   out.windows.still = unmoved_joints(out.measurements, space);
   while (out.windows.sets.back().all().size() < kWindows) out.windows.sets.pop_back();
-  return all;
+  return out;
 }
 
 Gathered gather_again(std::span<LogSource* const> logs, const ParameterSpace& space,
@@ -185,8 +184,8 @@ Gathered gather_again(std::span<LogSource* const> logs, const ParameterSpace& sp
   return gathered;
 }
 
-void Gathered::leave_out(const std::vector<int>& logs) {
-  for (const int log : logs) left_out[log] = true;
+void Gathered::leave_out(const std::vector<int>& more) {
+  for (const int log : more) left_out[log] = true;
   for (WeakWindows& set : windows.sets) set.leave_out(left_out);
 }
 

@@ -42,29 +42,24 @@ class Measurements {
   Eigen::VectorXd first_, samples_, mean_, square_, steps_, step_square_;
 };
 
-/// Data that the passes over the logs gather.
+/// Data that the passes over the logs gather, the properties of each log, and their issues.
 struct Gathered {
+  std::vector<IdentifiedLog> logs;
+  Issues issues;
   std::vector<LogSurvey> surveys;
   WeakSets windows;
   Measurements measurements;
   std::vector<bool> left_out;       ///< by log: its windows and excerpts are excluded
   std::vector<double> torque_gain;  ///< by joint: true torque per logged torque; empty: all 1
 
-  void leave_out(const std::vector<int>& logs);
-};
-
-/// Data of the logs, the properties of each log, and their issues.
-struct GatheredLogs {
-  Gathered gathered;
-  std::vector<IdentifiedLog> logs;
-  Issues issues;
+  void leave_out(const std::vector<int>& more);
 };
 
 /// Reads every log twice, for the windows of `space`. A joint is still if its position hardly changed in all
 /// logs: within its noise, or by less than 2 mrad or .2 mm. Throws Error(input) if the logs give too few
 /// windows.
-GatheredLogs gather(std::span<LogSource* const> logs, const ParameterSpace& space, double shortest_window_s,
-                    int max_windows, const Progress& progress);
+Gathered gather(std::span<LogSource* const> logs, const ParameterSpace& space, double shortest_window_s,
+                int max_windows, const Progress& progress);
 
 /// Reads every log once more and returns the windows of another space; the other fields of `gathered` stay.
 Gathered gather_again(std::span<LogSource* const> logs, const ParameterSpace& space,

@@ -70,7 +70,7 @@ Explained explain(const std::vector<Log>& logs, const Robot& robot) {
   Explained out;
   try {
     const ParameterSpace space = parameter_space(robot);
-    const Gathered gathered = gather(pointers, space, kMisreadingWindow_s, kMisreadingWindows, {}).gathered;
+    const Gathered gathered = gather(pointers, space, kMisreadingWindow_s, kMisreadingWindows, {});
     const int n = robot.joints();
     const std::vector<int>& still = gathered.windows.still;
     const WantedParameters wanted = wanted_parameters(space, robot, still, false);
