@@ -149,23 +149,21 @@ double feature_scale(const UsualMotion& usual, SizeMeasure measure, int j) {
 
 double usual_size(const UsualMotion& usual, SizeMeasure measure, int j) {
   switch (measure) {
-    case SizeMeasure::torque_share:
-      return 1.0;
     case SizeMeasure::length:
     case SizeMeasure::length_per_s:
       return usual.q_high[j] - usual.q_low[j];
-    case SizeMeasure::viscous_friction:
-      return usual.sizes.viscous_increase[j];
-    case SizeMeasure::coulomb_friction:
-      return usual.sizes.coulomb_increase[j];
     case SizeMeasure::mass:
       return usual.sizes.payload / kPayloadShare;
     case SizeMeasure::torque:
       return usual.torque_scale[j];
     case SizeMeasure::impulse:
       return usual.torque_scale[j] * kUsualCollision_s;
+    case SizeMeasure::torque_share:
+    case SizeMeasure::viscous_friction:
+    case SizeMeasure::coulomb_friction:
+      break;
   }
-  return 1.0;
+  return feature_scale(usual, measure, j);
 }
 
 }  // namespace faultline

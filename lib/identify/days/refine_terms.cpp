@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/balance/noise.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/identify/days/healthy_day.hpp"
 
@@ -68,17 +67,17 @@ struct Column {
   std::vector<double> q, dq, torque, left;
 };
 
-Column column_of(const std::vector<LogResidual>& logs, int j) {
+Column column_of(const DayDraft& draft, int j) {
   Column out;
-  for (const LogResidual& log : logs)
-    for (int k = 0; k < log.rows->rows(); ++k) {
-      if (log.rows->lost[k] || log.rows->rests(k, j) || (!log.not_counted.empty() && log.not_counted[k]))
-        continue;
-      out.q.push_back(log.rows->q(k, j));
-      out.dq.push_back(log.rows->dq(k, j));
-      out.torque.push_back(log.rows->torque(k, j));
-      out.left.push_back(log.torque(k, j));
+  for (const HealthyDay& day : draft.days) {
+    const MatrixXd left = left_over(day, draft.model.theta);
+    for (const int k : rows_of_friction(day, draft.model, j)) {
+      out.q.push_back(day.rows.q(k, j));
+      out.dq.push_back(day.rows.dq(k, j));
+      out.torque.push_back(day.rows.torque(k, j));
+      out.left.push_back(left(k, j));
     }
+  }
   return out;
 }
 
@@ -105,20 +104,21 @@ double explained(const Column& c, double rate, double kernel_s) {
 }
 
 /// Returns, for each joint, the rate whose sine and cosine, alone and times the torque, explain most of its
-/// residual, if that is more than a twentieth. `range` is that of each joint.
-std::vector<RippleRate> find_ripples_in_rows(const std::vector<LogResidual>& logs, const RowSetting& setting,
-                                             const Eigen::VectorXd& range) {
+/// residual, if that is more than a twentieth.
+std::vector<RippleRate> find_ripples_in_rows(const DayDraft& draft) {
+  const BalanceModel& m = draft.model;
   std::vector<RippleRate> out;
-  for (int j = 0; j < setting.joints(); ++j) {
-    if (range[j] <= 0.0) continue;
-    Column column = column_of(logs, j);
+  for (int j = 0; j < m.joints(); ++j) {
+    const double range = m.q_high[j] - m.q_low[j];
+    if (range <= 0.0) continue;
+    Column column = column_of(draft, j);
     if (column.left.empty()) continue;
     centre_and_cut(column.left);
     double all = 0.0;
     for (const double v : column.left) all += v * v;
     double most = 0.0, best = 0.0;
     for (double waves = 20.0; waves < 700.0; waves += 1.0) {
-      const double rate = waves / range[j], e = explained(column, rate, setting.kernel_s);
+      const double rate = waves / range, e = explained(column, rate, m.setting.kernel_s);
       if (e > most) most = e, best = rate;
     }
     if (most > kLeastExplained * all) out.push_back({j, best});
@@ -173,10 +173,7 @@ BalanceModel with_compliance(BalanceModel m) {
 
 DayDraft with_ripples(DayDraft draft) {
   BalanceModel& m = draft.model;
-  std::vector<LogResidual> left;
-  for (const HealthyDay& day : draft.days)
-    left.push_back({&day.rows, left_over(day, m.theta), {}, rows_near_change(day, m)});
-  m.setting.ripples = find_ripples_in_rows(left, m.setting, m.q_high - m.q_low);
+  m.setting.ripples = find_ripples_in_rows(draft);
   const VectorXd before = m.theta;
   m.theta.setZero(m.layout().count());
   m.theta.head(before.size()) = before;
