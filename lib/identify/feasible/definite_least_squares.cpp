@@ -102,6 +102,12 @@ void descend(const Problem& problem, double prior, Eigen::VectorXd& x) {
 
 }  // namespace
 
+Eigen::MatrixXd DefiniteBlock::value(const Eigen::VectorXd& own_unknowns) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(basis[0].rows(), basis[0].cols());
+  for (int i = 0; i < unknowns(); ++i) out += own_unknowns[i] * basis[i];
+  return out;
+}
+
 Eigen::VectorXd definite_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& y,
                                        const std::vector<DefiniteBlock>& blocks, double prior) {
   const Problem problem(a, y, blocks);
