@@ -10,6 +10,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/log/channel_names.hpp"
+#include "lib/log/time_axis.hpp"
 
 namespace faultline {
 namespace {
@@ -81,16 +82,10 @@ class StretchCutter {
     if (static_cast<int>(time_.size()) >= kStretchRows) flush();
   }
 
-  /// Estimates the sample period from the first rows of the log.
-  void measure_period() {
-    std::vector<double> steps;
-    for (std::size_t k = 1; k < time_.size(); ++k) steps.push_back(time_[k] - time_[k - 1]);
-    if (steps.size() >= 3) period_ = upper_median_of(steps);
-  }
-
   void flush() {
-    if (period_ == 0.0) measure_period();
-    if (static_cast<int>(time_.size()) >= kSmallestStretch && period_ > 0.0) visit_pieces();
+    const bool enough = static_cast<int>(time_.size()) >= kSmallestStretch;
+    if (enough && period_ == 0.0) period_ = median_step(time_);  // of the first rows of the log
+    if (enough && period_ > 0.0) visit_pieces();
     time_.clear();
     stale_.clear();
     values_.clear();

@@ -67,9 +67,6 @@ void for_each_stretch(LogSource& source, int log, int joints, const LogSurvey& s
   });
 }
 
-Excerpts::Excerpts(double segment_s, int min_rows, int max_rows)
-    : segment_s_(segment_s), min_rows_(min_rows), max_rows_(max_rows) {}
-
 void Excerpts::add(const Stretch& s) {
   const int rows = std::max(min_rows_, static_cast<int>(std::lround(segment_s_ / s.period_s)) + 1);
   for (int begin = 0; begin + rows <= s.rows(); begin += rows) {

@@ -44,14 +44,14 @@ struct Excerpt {
   double travel = 0.0;       ///< range of the smoothed velocity, summed over the joints
 
   int rows() const { return static_cast<int>(time.size()); }
-  int joints() const { return static_cast<int>(tau.rows()); }
 };
 
 /// Excerpts of all logs with a bounded number of rows: thinned evenly as they are added; in the end, those of
 /// largest travel are kept.
 class Excerpts {
  public:
-  Excerpts(double segment_s, int min_rows, int max_rows);
+  Excerpts(double segment_s, int min_rows, int max_rows)
+      : segment_s_(segment_s), min_rows_(min_rows), max_rows_(max_rows) {}
 
   void add(const Stretch& stretch);
   /// Returns the excerpts in the order of the logs, and leaves none.
