@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/excitation/suggest_motion.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -12,8 +14,9 @@
 #include "lib/core/random.hpp"
 #include "lib/identify/excitation/excitation.hpp"
 #include "lib/identify/parameter_space.hpp"
-#include "lib/identify/weak_form/weak_windows.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 #include "lib/robot/dynamics.hpp"
+#include "lib/robot/toml/toml_text.hpp"
 #include "lib/simulate/motion.hpp"
 
 namespace faultline {
@@ -110,15 +113,6 @@ Stretch stretch_of(const Motion& reference, int joints, double duration_s) {
   return s;
 }
 
-/// Returns the row of joint `j` in the linear parameters: base, viscous and Coulomb friction, 0 elsewhere.
-Eigen::RowVectorXd row_of(const ParameterSpace& space, const WeakWindow& w, int j) {
-  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(space.linear());
-  row.head(space.rigid()) = w.base.row(j);
-  row[space.viscous(j)] = w.viscous[j];
-  row[space.coulomb(j)] = w.coulomb(j, kOwnWidth);
-  return row;
-}
-
 /// Returns `Excitation::moments` of a log of `duration_s` along that reference, in the columns and scales of
 /// `of`.
 Eigen::MatrixXd motion_moments(const ParameterSpace& space, const Excitation& of, const Motion& reference,
@@ -130,7 +124,8 @@ Eigen::MatrixXd motion_moments(const ParameterSpace& space, const Excitation& of
   Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(count, count);
   for (const WeakWindow& w : windows.all())
     for (int j = 0; j < space.joints(); ++j) {
-      const Eigen::RowVectorXd row = row_of(space, w, j)(of.columns) / of.joint_scale[j];
+      const Eigen::RowVectorXd row =
+          linear_row(space, w, j, kOwnWidth, kOwnWidth)(of.columns) / of.joint_scale[j];
       moments += row.transpose() * row;
     }
   return moments / static_cast<double>(std::max<std::size_t>(windows.all().size(), 1));
@@ -203,6 +198,25 @@ void tell_joints(const Identification& id, const Candidate& best, SuggestedMotio
   }
 }
 
+std::string list(const std::vector<double>& values) {
+  return toml_numbers(
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
+}
+
+std::string comments(const SuggestedMotion& motion) {
+  std::string text = fmt::format(
+      "# A motion that determines the parameters: condition number {:.3g}, that of the logs was {:.3g}.\n"
+      "# Check before a robot runs it: the work space must be free and the drives strong enough.\n",
+      motion.condition, motion.condition_of_logs);
+  for (std::size_t j = 0; j < motion.joints.size(); ++j)
+    text += fmt::format(
+        "#   joint {}: at most {:.3g} {}, {:.3g} {}{}\n", j + 1, motion.joints[j].fastest,
+        velocity_unit(motion.joints[j].kind), motion.joints[j].torque, torque_unit(motion.joints[j].kind),
+        motion.joints[j].beyond_logs ? "; farther or faster than in the logs, which hardly move this joint"
+                                     : "");
+  return text;
+}
+
 }  // namespace
 
 SuggestedMotion suggest_motion(const Identification& id, const SuggestOptions& options) {
@@ -227,6 +241,22 @@ SuggestedMotion suggest_motion(const Identification& id, const SuggestOptions& o
   out.condition_of_logs = condition_of(id.excitation.moments, unit);
   tell_joints(id, candidates[best], out);
   return out;
+}
+
+std::string suggestion_text(const SuggestedMotion& motion, const std::string& robot_file) {
+  const SimulationSpec& s = motion.simulation;
+  std::string text = comments(motion);
+  text += fmt::format(
+      "robot = {}\nduration_s = {}\nsample_period_s = {}\ncontrol_period_s = \"held\"\nmax_step_s = {}\n",
+      toml_quoted(robot_file), toml_number(s.duration_s), toml_number(s.sample_period_s),
+      toml_number(s.max_step_s));
+  text += fmt::format(
+      "record_reference = true\n\n[motion]\nprofile = \"fourier\"\nlow = {}\nhigh = {}\nharmonics = {}\n"
+      "fourier_period_s = {}\n\n[noise]\nq = {}\n",
+      list(s.motion.low), list(s.motion.high), s.motion.harmonics, toml_number(s.motion.fourier_period_s),
+      list(s.noise.q));
+  if (!s.noise.dq.empty()) text += fmt::format("dq = {}\n", list(s.noise.dq));
+  return text + fmt::format("\n[[run]]\nname = \"suggested\"\nseed = {}\n", motion.seed);
 }
 
 }  // namespace faultline

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lib/identify/weak_form/weak_system.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {
 

@@ -12,7 +12,7 @@
 #include "lib/core/statistics.hpp"
 #include "lib/identify/shooting/shooting_evaluation.hpp"
 #include "lib/identify/shooting/trailing_covariance.hpp"
-#include "lib/identify/weak_form/weak_system.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {
 namespace {

@@ -7,7 +7,6 @@
 
 namespace faultline {
 
-struct JointFit;
 struct TorqueFit;
 
 /// Estimate of a parameter from one log alone.
@@ -44,12 +43,11 @@ std::vector<ParameterTrend> tested_trends(std::vector<ParameterTrend> trends);
 
 /// Returns the estimates from each log alone of every fitted parameter, with the same windows and terms, and
 /// whether they change from log to log. A log counts for a parameter only if its own motion determines it; a
-/// parameter with fewer than three such logs is omitted. Empty with fewer logs. `fits`: by joint, of the same
-/// windows as `torque`.
+/// parameter with fewer than three such logs is omitted. Empty with fewer logs.
 ///
 /// A variance is the larger of two: from blocks of one log's residual (jackknife), which show model error
 /// where it occurs, and from the residual's autocorrelation over all logs together, which a short log cannot
 /// determine.
-std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque, const std::vector<JointFit>& fits);
+std::vector<ParameterTrend> parameter_trends(const TorqueFit& torque);
 
 }  // namespace faultline

@@ -148,61 +148,51 @@ int Chooser::torque_begin(int j) const {
   return space_.rigid() + kOthers + kWidths + static_cast<int>(extra_[j].size());
 }
 
-/// Returns the columns of a joint's moments in the order of its parameters, then its torque.
-std::vector<int> Chooser::columns(const WeakChoice& choice, int j) const {
-  const int rigid = space_.rigid();
-  std::vector<int> out;
-  for (int p = 0; p < rigid; ++p) out.push_back(p);
-  out.push_back(rigid);
-  out.push_back(rigid + kOthers + choice.width[j]);
-  out.push_back(rigid + 1);
-  out.push_back(rigid + kOthers + choice.bend[j]);
-  out.push_back(rigid + 2);
-  for (int i = 0; i < static_cast<int>(extra_[j].size()); ++i) out.push_back(rigid + kOthers + kWidths + i);
-  out.push_back(torque_begin(j) + choice.shift[j] - shifts_.first);
+/// Returns the columns of a joint's moments that a choice uses, without its torque.
+std::vector<Chooser::Column> Chooser::columns(const WeakChoice& choice, int j) const {
+  const int rigid = space_.rigid(), coulomb = rigid + kOthers, extra = coulomb + kWidths;
+  std::vector<Column> out;
+  for (int p = 0; p < rigid; ++p) out.push_back({p, p});
+  out.push_back({rigid, space_.viscous(j)});
+  out.push_back({coulomb + choice.width[j], space_.coulomb(j)});
+  out.push_back({rigid + 1, space_.offset(j)});
+  out.push_back({coulomb + choice.bend[j], space_.bend(j)});
+  out.push_back({rigid + 2, space_.skew(j)});
+  for (int i = 0; i < static_cast<int>(extra_[j].size()); ++i)
+    out.push_back({extra + i, space_.extra_begin() + extra_[j][i]});
   return out;
 }
 
-/// Returns the parameters of a joint's rows: base, viscous, Coulomb, offset, bend, skew, extra terms.
-std::vector<int> Chooser::parameters_of(int j) const {
-  std::vector<int> out;
-  for (int p = 0; p < space_.rigid(); ++p) out.push_back(p);
-  out.push_back(space_.viscous(j));
-  out.push_back(space_.coulomb(j));
-  out.push_back(space_.offset(j));
-  out.push_back(space_.bend(j));
-  out.push_back(space_.skew(j));
-  for (const int i : extra_[j]) out.push_back(space_.extra_begin() + i);
-  return out;
+/// Returns the column of a joint's torque with the shift of a choice.
+int Chooser::torque_column(const WeakChoice& choice, int j) const {
+  return torque_begin(j) + choice.shift[j] - shifts_.first;
 }
 
 Eigen::VectorXd Chooser::fit(const WeakChoice& choice, const std::vector<bool>& wanted,
                              const Eigen::VectorXd& scale) const {
-  return fit_folds(choice, wanted, scale, std::vector<bool>(folds_, true));
+  return fit_folds(choice, wanted, scale, [](int) { return true; });
 }
 
 Eigen::VectorXd Chooser::fit_one(const WeakChoice& choice, const std::vector<bool>& wanted,
                                  const Eigen::VectorXd& scale, int fold) const {
-  std::vector<bool> used(folds_, false);
-  used[fold] = true;
-  return fit_folds(choice, wanted, scale, used);
+  return fit_folds(choice, wanted, scale, [fold](int other) { return other == fold; });
 }
 
 Eigen::VectorXd Chooser::fit_folds(const WeakChoice& choice, const std::vector<bool>& wanted,
-                                   const Eigen::VectorXd& scale, const std::vector<bool>& used) const {
+                                   const Eigen::VectorXd& scale, const std::function<bool(int)>& uses) const {
   const int linear = space_.timing();
   Eigen::MatrixXd n = Eigen::MatrixXd::Zero(linear, linear);
   Eigen::VectorXd r = Eigen::VectorXd::Zero(linear);
   for (int j = 0; j < joints_; ++j) {
-    const std::vector<int> column = columns(choice, j), parameter = parameters_of(j);
+    const std::vector<Column> column = columns(choice, j);
+    const int torque = torque_column(choice, j);
     const double gain = gain_at(choice, j), weight = 1.0 / (scale[j] * scale[j] * gain * gain);
     for (int fold = 0; fold < folds_; ++fold) {
-      if (!used[fold]) continue;
+      if (!uses(fold)) continue;
       const Eigen::MatrixXd& m = at(choice.set[j], fold, j).sum;
-      for (std::size_t a = 0; a < parameter.size(); ++a) {
-        r[parameter[a]] += weight * gain * m(column[a], column.back());
-        for (std::size_t b = 0; b < parameter.size(); ++b)
-          n(parameter[a], parameter[b]) += weight * m(column[a], column[b]);
+      for (const Column& a : column) {
+        r[a.parameter] += weight * gain * m(a.at, torque);
+        for (const Column& b : column) n(a.parameter, b.parameter) += weight * m(a.at, b.at);
       }
     }
   }
@@ -211,19 +201,23 @@ Eigen::VectorXd Chooser::fit_folds(const WeakChoice& choice, const std::vector<b
   for (int p = 0; p < linear; ++p)
     if (wanted[p] && n(p, p) > 0.0) free.push_back(p), x[p] = 0.0;
   r -= n * x.head(linear);
-  const Eigen::VectorXd solved = solve_scaled(n(free, free), r(free));
-  for (std::size_t i = 0; i < free.size(); ++i) x[free[i]] = solved[i];
+  x(free) = solve_scaled(n(free, free), r(free));
   return x;
 }
 
 double Chooser::squared_residual(const Moments& m, const WeakChoice& choice,
                                  const Eigen::VectorXd& parameters, int j) const {
-  const std::vector<int> column = columns(choice, j), parameter = parameters_of(j);
-  Eigen::VectorXd v(column.size());
-  for (std::size_t a = 0; a < parameter.size(); ++a) v[a] = -parameters[parameter[a]];
+  const std::vector<Column> own = columns(choice, j);
+  std::vector<int> used;
+  Eigen::VectorXd v(own.size() + 1);
+  for (const Column& column : own) {
+    v[used.size()] = -parameters[column.parameter];
+    used.push_back(column.at);
+  }
   const double gain = gain_at(choice, j);
-  v[v.size() - 1] = gain;
-  return std::max(v.dot(m.sum(column, column) * v), 0.0) / (gain * gain);
+  v[used.size()] = gain;
+  used.push_back(torque_column(choice, j));
+  return std::max(v.dot(m.sum(used, used) * v), 0.0) / (gain * gain);
 }
 
 Eigen::VectorXd Chooser::residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const {
@@ -256,7 +250,7 @@ Eigen::VectorXd Chooser::torque(const WeakChoice& choice) const {
 Eigen::VectorXd Chooser::torque_std(const WeakChoice& choice) const {
   Eigen::VectorXd out(joints_);
   for (int j = 0; j < joints_; ++j) {
-    const int y = columns(choice, j).back(), one = space_.rigid() + 1;
+    const int y = torque_column(choice, j), one = space_.rigid() + 1;
     double rows = 0.0, sum = 0.0, square = 0.0;
     for (int fold = 0; fold < folds_; ++fold) {
       const Moments& m = at(yardstick_, fold, j);
@@ -270,19 +264,18 @@ Eigen::VectorXd Chooser::torque_std(const WeakChoice& choice) const {
   return out;
 }
 
-HeldOutError Chooser::held_out(const WeakChoice& choice, const std::vector<bool>& wanted,
-                               const Eigen::VectorXd& scale, int judge) const {
+HeldOutError Chooser::error(const WeakChoice& choice, const std::vector<bool>& wanted,
+                            const Eigen::VectorXd& scale, bool quick) const {
   HeldOutError out;
   out.square.setZero(folds_, joints_);
   out.rows.setZero(folds_, joints_);
   out.torque.setZero(folds_, joints_);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(space_.count());
   for (int fold = 0; fold < folds_; ++fold) {
-    std::vector<bool> used(folds_, true);
-    used[fold] = false;
-    const Eigen::VectorXd parameters = fit_folds(choice, wanted, scale, used);
+    const Eigen::VectorXd parameters =
+        fit_folds(choice, wanted, scale, [fold](int other) { return other != fold; });
     for (int j = 0; j < joints_; ++j) {
-      const Moments& m = at(judge, fold, j);
+      const Moments& m = at(quick ? 0 : yardstick_, fold, j);
       out.rows(fold, j) = m.rows;
       out.square(fold, j) = squared_residual(m, choice, parameters, j) / std::max(m.rows, 1.0);
       out.torque(fold, j) = squared_residual(m, choice, none, j) / std::max(m.rows, 1.0);
@@ -305,18 +298,6 @@ bool Chooser::suits_each(const WeakChoice& without, const WeakChoice& with, cons
   int better = 0;
   for (int fold = 0; fold < folds_; ++fold) better += residual(with, fold) < residual(without, fold);
   return 2 * better > folds_;
-}
-
-int Chooser::best_shift(WeakChoice choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale,
-                        int j) const {
-  int best = choice.shift[j];
-  double least = left(choice, wanted, scale);
-  for (int s = shifts_.first + 1; s <= shifts_.last; ++s) {
-    choice.shift[j] = s;
-    const double now = left(choice, wanted, scale);
-    if (now < least) least = now, best = s;
-  }
-  return best;
 }
 
 Gain gain_of(const HeldOutError& without, const HeldOutError& with, int j) {

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
-#include "lib/identify/weak_form/weak_system.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 
 namespace faultline {
 
@@ -49,16 +50,10 @@ class Chooser {
   /// Returns the fit to one fold alone.
   Eigen::VectorXd fit_one(const WeakChoice& choice, const std::vector<bool>& wanted,
                           const Eigen::VectorXd& scale, int fold) const;
-  /// Returns the residual of each fold with fits to the other folds, on the windows that judge choices.
-  HeldOutError error(const WeakChoice& choice, const std::vector<bool>& wanted,
-                     const Eigen::VectorXd& scale) const {
-    return held_out(choice, wanted, scale, yardstick_);
-  }
-  /// The same, judged by the shortest windows: for terms that are too fast for the others.
-  HeldOutError quick_error(const WeakChoice& choice, const std::vector<bool>& wanted,
-                           const Eigen::VectorXd& scale) const {
-    return held_out(choice, wanted, scale, 0);
-  }
+  /// Returns the residual of each fold with fits to the other folds, on the windows that judge choices or, if
+  /// `quick`, on the shortest ones: for terms that are too fast for the others.
+  HeldOutError error(const WeakChoice& choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale,
+                     bool quick = false) const;
   /// The same in the choice's own scale.
   HeldOutError error(const WeakChoice& choice, const std::vector<bool>& wanted) const {
     return error(choice, wanted, scale(choice, wanted));
@@ -69,9 +64,6 @@ class Chooser {
                   const Eigen::VectorXd& scale, int j) const;
   /// Returns the summed squared residual of all joints, each in its scale.
   double left(const WeakChoice& choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale) const;
-  /// Returns the shift of joint `j` with the smallest such sum.
-  int best_shift(WeakChoice choice, const std::vector<bool>& wanted, const Eigen::VectorXd& scale,
-                 int j) const;
 
  private:
   /// Moments of one joint's rows: base, viscous, offset, skew, Coulomb of every width, its extra terms,
@@ -81,19 +73,22 @@ class Chooser {
     double rows = 0.0;
   };
 
+  /// Column of the moments, and the parameter of the space that it belongs to.
+  struct Column {
+    int at = 0, parameter = 0;
+  };
+
   const Moments& at(int set, int fold, int joint) const {
     return moments_[(set * folds_ + fold) * joints_ + joint];
   }
-  std::vector<int> columns(const WeakChoice& choice, int joint) const;
-  std::vector<int> parameters_of(int joint) const;
+  std::vector<Column> columns(const WeakChoice& choice, int joint) const;
+  int torque_column(const WeakChoice& choice, int joint) const;
   int torque_begin(int joint) const;
   Eigen::VectorXd fit_folds(const WeakChoice& choice, const std::vector<bool>& wanted,
-                            const Eigen::VectorXd& scale, const std::vector<bool>& used) const;
+                            const Eigen::VectorXd& scale, const std::function<bool(int)>& uses) const;
   double squared_residual(const Moments& m, const WeakChoice& choice, const Eigen::VectorXd& parameters,
                           int joint) const;
   Eigen::VectorXd residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const;
-  HeldOutError held_out(const WeakChoice& choice, const std::vector<bool>& wanted,
-                        const Eigen::VectorXd& scale, int judge) const;
 
   const ParameterSpace& space_;
   const Eigen::VectorXd& start_;

@@ -73,7 +73,7 @@ std::vector<bool> with_group(std::vector<bool> wanted, const TermGroup& group) {
 TermGroup judged(const Chooser& chooser, const ModelChoice& c, TermGroup group) {
   const Eigen::VectorXd scale = chooser.scale(c.weak, c.wanted);
   const auto error = [&](const std::vector<bool>& wanted) {
-    return group.quick ? chooser.quick_error(c.weak, wanted, scale) : chooser.error(c.weak, wanted, scale);
+    return chooser.error(c.weak, wanted, scale, group.quick);
   };
   group.without = error(c.wanted);
   group.with = error(with_group(c.wanted, group));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
@@ -24,15 +25,14 @@ constexpr double kFarWidth = 4.0;        // times wider or sharper than the best
 constexpr int kShiftSweeps = 3;          // over the joints at most, each with the delays of the others
 constexpr double kBendsApart = 10.0;     // times the width of the Coulomb friction, at least
 
-/// Returns the choice, which has no shifts, with the best common shift of all joints: most logs have one
-/// delay for all.
-WeakChoice common_shift(const Chooser& chooser, const std::vector<bool>& wanted, WeakChoice choice) {
-  const int joints = chooser.space().joints();
-  const Eigen::VectorXd scale = chooser.scale(choice, wanted);
+/// Returns the choice with the shift, one for all of these joints, that leaves the smallest residual; its own
+/// shifts if none leaves less.
+WeakChoice with_best_shift(const Chooser& chooser, const std::vector<bool>& wanted,
+                           const Eigen::VectorXd& scale, const std::vector<int>& joints, WeakChoice choice) {
   WeakChoice best = choice;
   double least = chooser.left(choice, wanted, scale);
   for (int s = chooser.shifts().first + 1; s <= chooser.shifts().last; ++s) {
-    choice.shift.assign(joints, s);
+    for (const int j : joints) choice.shift[j] = s;
     const double left = chooser.left(choice, wanted, scale);
     if (left < least) least = left, best = choice;
   }
@@ -47,7 +47,10 @@ ModelChoice choose_shifts(const Chooser& chooser, const std::vector<bool>& wante
   WeakChoice none = c.weak;
   none.shift.assign(joints, 0);
   const HeldOutError without = chooser.error(none, wanted);
-  WeakChoice settled = common_shift(chooser, wanted, none);
+  std::vector<int> all(joints);
+  std::iota(all.begin(), all.end(), 0);
+  // Most logs have one delay for all joints.
+  WeakChoice settled = with_best_shift(chooser, wanted, chooser.scale(none, wanted), all, none);
   HeldOutError best = chooser.error(settled, wanted);
   bool helps = false, harms = false;
   for (int j = 0; j < joints; ++j) {
@@ -59,7 +62,7 @@ ModelChoice choose_shifts(const Chooser& chooser, const std::vector<bool>& wante
   for (int sweep = 0; sweep < kShiftSweeps; ++sweep) {
     const WeakChoice before = single;
     const Eigen::VectorXd scale = chooser.scale(single, wanted);
-    for (int j = 0; j < joints; ++j) single.shift[j] = chooser.best_shift(single, wanted, scale, j);
+    for (const int j : all) single = with_best_shift(chooser, wanted, scale, {j}, std::move(single));
     if (single.shift == before.shift) break;
   }
   const HeldOutError with = chooser.error(single, wanted);

@@ -4,12 +4,19 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
 namespace {
+
+constexpr double kResting = 0.03;  // of the speed of a joint's fastest window: below, the joint rests
+constexpr double kShown = 1e-6;    // of a squared column: least share from moving joints
 
 constexpr int kRounds = 8;             // fits with new weights, at most
 constexpr double kOutlierStd = 8.0;    // robust standard deviations up to which a row has its full weight
@@ -18,6 +25,13 @@ constexpr double kFormSettled = 1e-9;  // relative change of the residual's scal
 constexpr double kDependent = 3e-3;   ///< least share of a scaled column that is independent of the others
 constexpr double kNotExcited = 1e-9;  ///< rms of a column, in units of the residual: less is rounding
 constexpr double kMixed = 0.03;  ///< share of a column in a dependent one beyond which both are confounded
+
+/// Returns the number of seconds of the logs in which a window begins.
+double seconds_covered(const WeakWindows& windows) {
+  std::set<std::pair<int, long>> seconds;
+  for (const WeakWindow& w : windows.all()) seconds.emplace(w.log, static_cast<long>(std::floor(w.time_s)));
+  return static_cast<double>(seconds.size());
+}
 
 double condition(const Eigen::MatrixXd& a) {
   if (a.cols() == 0) return 0.0;
@@ -124,6 +138,87 @@ void judge(const WeakSystem& s, const Eigen::VectorXd& robust, WeakFit& fit) {
 }
 
 }  // namespace
+
+double residual_block_s(double total_s, double parameters) {
+  // Bounds of a block's length, and the number of blocks for each parameter.
+  constexpr double kLongest_s = 1.0, kShortest_s = 0.1, kBlocksPerParameter = 5.0;
+  return std::clamp(total_s / (kBlocksPerParameter * parameters), kShortest_s, kLongest_s);
+}
+
+std::vector<bool> moving_windows(const WeakSets& windows, int set, int joint) {
+  const std::vector<WeakWindow>& all = windows.sets[set].all();
+  if (has_joint(windows.still, joint)) return std::vector<bool>(all.size(), false);
+  double fastest = 0.0;
+  for (const WeakWindow& w : all) fastest = std::max(fastest, w.speed[joint]);
+  std::vector<bool> moving;
+  for (const WeakWindow& w : all) moving.push_back(w.speed[joint] >= kResting * fastest);
+  return moving;
+}
+
+Eigen::RowVectorXd linear_row(const ParameterSpace& space, const WeakWindow& w, int j, int width, int bend) {
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(space.linear());
+  row.head(space.rigid()) = w.base.row(j);
+  row[space.viscous(j)] = w.viscous[j];
+  row[space.coulomb(j)] = w.coulomb(j, width);
+  row[space.offset(j)] = 1.0;
+  row[space.bend(j)] = w.coulomb(j, bend);
+  row[space.skew(j)] = w.skew[j];
+  row.segment(space.extra_begin(), w.extra.cols()) = w.extra.row(j);
+  return row;
+}
+
+WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice) {
+  const ParameterSpace& space = windows.space;
+  WeakSystem s;
+  s.joints = space.joints();
+  s.width.resize(s.joints);
+  Eigen::Index rows = 0;
+  for (int j = 0; j < s.joints; ++j) {
+    rows += static_cast<Eigen::Index>(windows.sets[choice.set[j]].all().size());
+    s.width[j] = elementary::log(weak_width(space, j, choice.width[j]));
+  }
+  s.a.resize(rows, space.linear());
+  s.y.resize(rows);
+  s.use.setOnes(rows);
+  Eigen::Index row = 0;
+  for (int j = 0; j < s.joints; ++j) {
+    const WeakWindows& set = windows.sets[choice.set[j]];
+    const std::vector<bool> moving = moving_windows(windows, choice.set[j], j);
+    const int at = choice.shift[j] - windows.shifts.first, before = std::max(at - 1, 0);
+    for (std::size_t k = 0; k < set.all().size(); ++k, ++row) {
+      const WeakWindow& w = set.all()[k];
+      s.a.row(row) = linear_row(space, w, j, choice.width[j], choice.bend[j]);
+      s.a(row, space.timing()) = w.torque(j, at) - w.torque(j, before);
+      s.y[row] = w.torque(j, at);
+      if (!moving[k]) s.use[row] = 0.0;
+      s.joint.push_back(j);
+      s.log.push_back(w.log);
+      s.time_s.push_back(w.time_s);
+    }
+  }
+  return with_blocks(std::move(s), seconds_covered(windows.sets[0]));
+}
+
+WeakSystem with_blocks(WeakSystem s, double total_s) {
+  const double block_s = residual_block_s(total_s, static_cast<double>(s.a.cols()));
+  std::map<std::pair<int, long>, int> blocks;
+  for (std::size_t k = 0; k < s.log.size(); ++k) {
+    const std::pair<int, long> part{s.log[k], static_cast<long>(std::floor(s.time_s[k] / block_s))};
+    s.block.push_back(blocks.emplace(part, static_cast<int>(blocks.size())).first->second);
+  }
+  s.blocks = static_cast<int>(blocks.size());
+  return s;
+}
+
+bool is_shown_at_rest(const WeakSystem& system, int p, const std::vector<int>& still) {
+  double all = 0.0, moving = 0.0;
+  for (Eigen::Index k = 0; k < system.a.rows(); ++k) {
+    const double square = system.a(k, p) * system.a(k, p);
+    all += square;
+    if (!has_joint(still, system.joint[k])) moving += square;
+  }
+  return moving <= kShown * all;
+}
 
 ColumnSelection select_columns(const Eigen::MatrixXd& a, const std::vector<bool>& wanted, int rigid) {
   ColumnSelection out;

@@ -38,18 +38,18 @@ WeakWindow window_at(const Stretch& s, const StretchTerms& terms, const ShiftRan
   const int n = s.joints();
   const Eigen::VectorXd w = weights(terms.step_s.segment(begin, steps));
   const Eigen::VectorXd duration = w.cwiseProduct(terms.step_s.segment(begin, steps));
+  const auto mean = [&](const Eigen::MatrixXd& columns) -> Eigen::VectorXd {
+    return columns.middleCols(begin, steps) * w;
+  };
   WeakWindow out;
   out.log = s.log;
   out.time_s = s.time[begin];
-  const Eigen::VectorXd base = terms.base.middleCols(begin, steps) * w;
-  out.base = Eigen::Map<const Eigen::MatrixXd>(base.data(), n, base.size() / n);
-  const Eigen::VectorXd coulomb = terms.coulomb.middleCols(begin, steps) * w;
-  out.coulomb = Eigen::Map<const Eigen::MatrixXd>(coulomb.data(), n, kWidths);
-  const Eigen::VectorXd extra = terms.extra.middleCols(begin, steps) * w;
-  out.extra = Eigen::Map<const Eigen::MatrixXd>(extra.data(), n, extra.size() / n);
-  out.viscous = terms.viscous.middleCols(begin, steps) * w;
-  const Eigen::VectorXd rotor = terms.rotor.middleCols(begin, steps) * w;
-  out.skew = terms.skew.middleCols(begin, steps) * w;
+  out.base = mean(terms.base).reshaped(n, Eigen::AutoSize);
+  out.coulomb = mean(terms.coulomb).reshaped(n, Eigen::AutoSize);
+  out.extra = mean(terms.extra).reshaped(n, Eigen::AutoSize);
+  out.viscous = mean(terms.viscous);
+  out.skew = mean(terms.skew);
+  const Eigen::VectorXd rotor = mean(terms.rotor);
   out.torque.resize(n, shifts.count());
   for (int i = 0; i < shifts.count(); ++i)
     out.torque.col(i) = s.tau.middleCols(begin - shifts.first - i, steps) * duration - rotor;
