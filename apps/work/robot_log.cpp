@@ -21,7 +21,8 @@ std::unique_ptr<LogSource> robot_log_of(std::unique_ptr<RawReader> reader, const
       coupled(mended(std::make_unique<MappedSource>(std::move(reader), options), sliding_joints(robot.chain)),
               robot.log.coupling);
   if (robot.torque_delay_s.empty() && robot.torque_gain.empty()) return log;
-  return std::make_unique<DelayedTorqueSource>(std::move(log), robot.torque_delay_s, robot.torque_gain);
+  return std::make_unique<DelayedTorqueSource>(std::move(log),
+                                               DelayedTorque(robot.torque_delay_s, robot.torque_gain));
 }
 
 std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot,

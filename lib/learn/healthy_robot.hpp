@@ -22,7 +22,7 @@ namespace faultline {
 struct TorqueConversion {
   std::vector<double> delay_s, gain;
 
-  DelayedTorqueSource of(LogSource& log) const { return {log, delay_s, gain}; }
+  DelayedTorqueSource of(LogSource& log) const { return DelayedTorqueSource(log, {delay_s, gain}); }
 };
 
 template <typename Source>

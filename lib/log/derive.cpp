@@ -32,13 +32,11 @@ double parabola_slope(const std::vector<double>& time, const std::vector<double>
   return normal.ldlt().solve(right)(1) / width;
 }
 
-class VelocitySource : public ChangedSource {
+class AddedVelocities {
  public:
-  using ChangedSource::ChangedSource;
-
-  bool next(Log& segment) override {
+  bool next(LogSource& source, Log& segment) {
     while (!at_end_) {
-      at_end_ = !source_.next(incoming_);
+      at_end_ = !source.next(incoming_);
       if (!at_end_ && !incoming_.dq.empty()) {
         std::swap(segment, incoming_);
         return true;
@@ -53,13 +51,6 @@ class VelocitySource : public ChangedSource {
       return true;
     }
     return false;
-  }
-
-  void rewind() override {
-    source_.rewind();
-    around_ = {};
-    done_ = 0;
-    at_end_ = false;
   }
 
  private:
@@ -90,7 +81,7 @@ class VelocitySource : public ChangedSource {
 }  // namespace
 
 std::unique_ptr<LogSource> with_velocity(std::unique_ptr<LogSource> source) {
-  return std::make_unique<VelocitySource>(std::move(source));
+  return std::make_unique<StagedSource<AddedVelocities>>(std::move(source));
 }
 
 }  // namespace faultline

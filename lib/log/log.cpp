@@ -2,6 +2,7 @@
 #include "lib/log/log.hpp"
 
 #include <array>
+#include <utility>
 
 #include "lib/log/log_channels.hpp"
 
@@ -41,6 +42,20 @@ void append(Log& log, const Log& more) {
   for_each_column(log, more, [](std::vector<double>& mine, const std::vector<double>& next) {
     mine.insert(mine.end(), next.begin(), next.end());
   });
+}
+
+void append(Log& log, Log&& more) {
+  if (log.rows() == 0)
+    std::swap(log, more);
+  else
+    append(log, std::as_const(more));
+}
+
+Log take_front(Log& log, int rows) {
+  if (rows == log.rows()) return std::exchange(log, {});
+  Log front = slice(log, 0, rows);
+  log = slice(log, rows, log.rows());
+  return front;
 }
 
 }  // namespace faultline

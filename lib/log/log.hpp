@@ -41,5 +41,9 @@ void resize_like(Log& log, const Log& like, int rows);
 Log slice(const Log& log, int begin, int end);
 /// Appends the rows of `more`, which has the same channels (or `log` is empty).
 void append(Log& log, const Log& more);
+/// The same; an empty `log` gets the storage of `more`.
+void append(Log& log, Log&& more);
+/// Removes the first rows of `log` and returns them, without a copy if that is all of them.
+Log take_front(Log& log, int rows);
 
 }  // namespace faultline

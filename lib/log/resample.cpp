@@ -21,14 +21,13 @@ double between(const std::vector<double>& values, int left, double share) {
   return share == 0.0 ? values[at] : values[at] + share * (values[at + 1] - values[at]);
 }
 
-class ResampledSource : public ChangedSource {
+class Resampling {
  public:
-  ResampledSource(LogSource& source, const ResampleOptions& options)
-      : ChangedSource(source), options_(options) {}
+  explicit Resampling(const ResampleOptions& options) : options_(options) {}
 
-  bool next(Log& segment) override {
+  bool next(LogSource& source, Log& segment) {
     while (!at_end_) {
-      at_end_ = !source_.next(incoming_);
+      at_end_ = !source.next(incoming_);
       if (!at_end_) append(recorded_, incoming_);
       if (recorded_.rows() == 0) continue;
       place_rows();
@@ -39,17 +38,6 @@ class ResampledSource : public ChangedSource {
       if (segment.rows() > 0) return true;
     }
     return false;
-  }
-
-  void rewind() override {
-    source_.rewind();
-    recorded_ = {};
-    gap_.clear();
-    placed_ = 0;
-    at_end_ = false;
-    usual_ = 0.0;
-    step_ = -1;
-    made_ = 0;
   }
 
  private:
@@ -156,7 +144,7 @@ class ResampledSource : public ChangedSource {
 std::unique_ptr<LogSource> resampled(LogSource& source, const ResampleOptions& options) {
   if (!(options.period_s > 0.0) || !std::isfinite(options.period_s))
     throw Error(ErrorCode::usage, "resampling", "the sample period must be a positive number of seconds");
-  return std::make_unique<ResampledSource>(source, options);
+  return std::make_unique<StagedSource<Resampling>>(source, Resampling(options));
 }
 
 }  // namespace faultline

@@ -232,7 +232,7 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
   explained.finish();
   samples.finish();
   LogFacts facts = log_facts(log, tally, model);
-  facts.is_whole = facts.is_whole && filled.rows_put_in() == 0;
+  facts.is_whole = facts.is_whole && filled.stage().rows_put_in() == 0;
   return {.log = std::move(facts),
           .residuals = whole.joints(),
           .episodes = explained.episodes(),

@@ -72,20 +72,13 @@ class WrappedAngle {
   double step_ = std::numeric_limits<double>::quiet_NaN();  ///< the last one
 };
 
-class CorrectedSource : public ChangedSource {
+class Corrections {
  public:
-  CorrectedSource(LogSource& source, std::vector<bool> slides)
-      : ChangedSource(source), slides_(std::move(slides)) {}
-  CorrectedSource(std::unique_ptr<LogSource> source, std::vector<bool> slides)
-      : ChangedSource(std::move(source)), slides_(std::move(slides)) {}
+  explicit Corrections(std::vector<bool> slides) : slides_(std::move(slides)) {}
 
-  bool next(Log& segment) override {
-    Log incoming;
-    while (source_.next(incoming)) {
-      if (rows_.rows() == 0)
-        std::swap(rows_, incoming);
-      else
-        append(rows_, incoming);
+  bool next(LogSource& source, Log& segment) {
+    while (source.next(segment)) {
+      append(rows_, std::move(segment));
       judge_rows();
       hand_out(segment);
       if (segment.rows() > 0) return true;
@@ -96,28 +89,7 @@ class CorrectedSource : public ChangedSource {
     return segment.rows() > 0;
   }
 
-  void rewind() override {
-    source_.rewind();
-    rows_ = {};
-    looked_at_ = settled_ = 0;
-    kept_.clear();
-    handed_out_ = 0;
-    recorder_ = {};
-    jumps_ = {};
-    memory_.forget();
-    angles_.clear();
-    references_.clear();
-    last_t_ = std::nan("");
-    usual_step_ = 0.0;
-    row_cut_ = {};
-    corrections_ = {};
-  }
-
-  const Issues& issues() const override {
-    issues_ = source_.issues();
-    issues_.merge(corrections_);
-    return issues_;
-  }
+  const Issues& issues() const { return corrections_; }
 
  private:
   void judge_rows() {
@@ -262,14 +234,8 @@ class CorrectedSource : public ChangedSource {
 
   /// Hands out the settled rows that are kept; rows not settled stay.
   void hand_out(Log& segment) {
-    const int all = rows_.rows(), done = settled_;
-    if (done == all) {
-      std::swap(segment, rows_);
-      resize_like(rows_, segment, 0);
-    } else {
-      segment = slice(rows_, 0, done);
-      rows_ = slice(rows_, done, all);
-    }
+    const int done = settled_;
+    segment = take_front(rows_, done);
     if (static_cast<int>(kept_.size()) < done) keep_log_rows(segment, kept_);
     segment.first_row = handed_out_;
     handed_out_ += segment.rows();
@@ -307,17 +273,19 @@ class CorrectedSource : public ChangedSource {
   };
   RowCut row_cut_;
   Issues corrections_;
-  mutable Issues issues_;
 };
+
+using CorrectedSource = StagedSource<Corrections>;
 
 }  // namespace
 
 std::unique_ptr<LogSource> corrected(LogSource& source, std::vector<bool> slides) {
-  return std::make_unique<CorrectedSource>(source, std::move(slides));
+  return std::make_unique<CorrectedSource>(source, Corrections(std::move(slides)));
 }
 
 std::unique_ptr<LogSource> mended(std::unique_ptr<LogSource> source, std::vector<bool> slides) {
-  return without_stopped_columns(std::make_unique<CorrectedSource>(std::move(source), std::move(slides)));
+  return without_stopped_columns(
+      std::make_unique<CorrectedSource>(std::move(source), Corrections(std::move(slides))));
 }
 
 }  // namespace faultline

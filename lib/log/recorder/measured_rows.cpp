@@ -41,21 +41,19 @@ bool is_zero(const MeasuredRow& row) {
 
 }  // namespace
 
-RowMemory::RowMemory() : entries_(kRows) {}
-
 std::int64_t RowMemory::add(const MeasuredRow& row, std::int64_t index) {
+  entries_.resize(kRows);
   const std::uint64_t hash = hash_of(row);
   const Entry before = std::exchange(entries_[hash % kRows], {hash, index});
   return before.hash == hash ? before.index : -1;
 }
 
 std::int64_t RowMemory::find(const MeasuredRow& row) const {
+  if (entries_.empty()) return -1;
   const std::uint64_t hash = hash_of(row);
   const Entry& entry = entries_[hash % kRows];
   return entry.hash == hash ? entry.index : -1;
 }
-
-void RowMemory::forget() { entries_.assign(kRows, {}); }
 
 double PositionJumps::excess(int from, int to) const {
   const double before = last_.dq(from), after = now_.dq(to), moved = now_.q(to) - last_.q(from);

@@ -89,12 +89,10 @@ class PositionJumps {
 /// Stores the latest rows by a hash of all their digits, to find repeated rows.
 class RowMemory {
  public:
-  RowMemory();
   /// Adds a row with its index. Returns find(row) among the rows before.
   std::int64_t add(const MeasuredRow& row, std::int64_t index);
   /// Returns the index of the latest row with the same digits; -1 for none among about kRows rows.
   std::int64_t find(const MeasuredRow& row) const;
-  void forget();
 
   static constexpr std::size_t kRows = 1 << 16;  // a minute at 1 kHz; 1 MiB
 
@@ -103,7 +101,7 @@ class RowMemory {
     std::uint64_t hash = 0;
     std::int64_t index = -1;
   };
-  std::vector<Entry> entries_;
+  std::vector<Entry> entries_;  ///< empty, or kRows of them
 };
 
 }  // namespace faultline

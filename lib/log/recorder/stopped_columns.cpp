@@ -168,48 +168,24 @@ class StoppedColumns {
   double t_ = 0.0;
 };
 
-class StoppedColumnsSource : public ChangedSource {
+class EmptiedColumns {
  public:
-  using ChangedSource::ChangedSource;
-
-  bool next(Log& segment) override {
-    for (Log incoming; settled() == 0;) {
+  bool next(LogSource& source, Log& segment) {
+    while (settled() == 0) {
       if (at_end_) return false;
-      at_end_ = !source_.next(incoming);
+      at_end_ = !source.next(segment);
       if (at_end_) continue;
-      if (rows_.rows() == 0)
-        std::swap(rows_, incoming);
-      else
-        append(rows_, incoming);
+      append(rows_, std::move(segment));
       judge_rows();
     }
     const int done = settled();
-    if (done == rows_.rows()) {
-      segment = std::exchange(rows_, {});
-    } else {
-      segment = slice(rows_, 0, done);
-      rows_ = slice(rows_, done, rows_.rows());
-    }
+    segment = take_front(rows_, done);
     handed_out_ += done;
     judged_ -= done;
     return true;
   }
 
-  void rewind() override {
-    source_.rewind();
-    columns_ = {};
-    rows_ = {};
-    judged_ = 0;
-    handed_out_ = 0;
-    at_end_ = false;
-    found_ = {};
-  }
-
-  const Issues& issues() const override {
-    issues_ = source_.issues();
-    issues_.merge(found_);
-    return issues_;
-  }
+  const Issues& issues() const { return found_; }
 
  private:
   void judge_rows() {
@@ -252,13 +228,12 @@ class StoppedColumnsSource : public ChangedSource {
   std::int64_t handed_out_ = 0;  ///< rows before these
   bool at_end_ = false;
   Issues found_;
-  mutable Issues issues_;
 };
 
 }  // namespace
 
 std::unique_ptr<LogSource> without_stopped_columns(std::unique_ptr<LogSource> source) {
-  return std::make_unique<StoppedColumnsSource>(std::move(source));
+  return std::make_unique<StagedSource<EmptiedColumns>>(std::move(source));
 }
 
 }  // namespace faultline

@@ -26,4 +26,36 @@ class ChangedSource : public LogSource {
   LogSource& source_;
 };
 
+/// A log that a stage makes from another one. A `Stage` holds all that one pass over the log needs to know,
+/// so that a copy of a new one begins again; its next(source, segment) is LogSource::next(). Its issues(), if
+/// it has any, follow those of the source.
+template <typename Stage>
+class StagedSource : public ChangedSource {
+ public:
+  explicit StagedSource(LogSource& source, Stage stage = {})
+      : ChangedSource(source), fresh_(std::move(stage)), stage_(fresh_) {}
+  explicit StagedSource(std::unique_ptr<LogSource> source, Stage stage = {})
+      : ChangedSource(std::move(source)), fresh_(std::move(stage)), stage_(fresh_) {}
+
+  bool next(Log& segment) override { return stage_.next(source_, segment); }
+  void rewind() override {
+    source_.rewind();
+    stage_ = fresh_;
+  }
+  const Issues& issues() const override {
+    if constexpr (requires { stage_.issues(); }) {
+      issues_ = source_.issues();
+      issues_.merge(stage_.issues());
+      return issues_;
+    } else {
+      return source_.issues();
+    }
+  }
+  const Stage& stage() const { return stage_; }
+
+ private:
+  Stage fresh_, stage_;
+  mutable Issues issues_;  ///< of source and stage, gathered on demand
+};
+
 }  // namespace faultline

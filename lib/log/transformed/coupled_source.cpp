@@ -42,16 +42,16 @@ void mix_all(Log& log, const Eigen::MatrixXd& motion, const Eigen::MatrixXd& tor
     mix(signals_of(log, quantity), is_torque(quantity) ? torque : motion, mixed);
 }
 
-class CoupledSource : public ChangedSource {
+class Coupling {
  public:
-  CoupledSource(std::unique_ptr<LogSource> source, const Eigen::MatrixXd& coupling)
-      : ChangedSource(std::move(source)), motion_(coupling), torque_(inverse_of(coupling).transpose()) {}
+  explicit Coupling(const Eigen::MatrixXd& coupling)
+      : motion_(coupling), torque_(inverse_of(coupling).transpose()) {}
 
-  bool next(Log& segment) override {
-    if (!source_.next(segment)) return false;
+  bool next(LogSource& source, Log& segment) {
+    if (!source.next(segment)) return false;
     if (segment.joints() != motion_.rows())
-      throw Error(ErrorCode::input, source_.identity().path,
-                  joint_count_sentence(source_.issues(), segment.joints(), "the coupling of the robot",
+      throw Error(ErrorCode::input, source.identity().path,
+                  joint_count_sentence(source.issues(), segment.joints(), "the coupling of the robot",
                                        static_cast<int>(motion_.rows())));
     mix_all(segment, motion_, torque_, mixed_);
     return true;
@@ -66,7 +66,7 @@ class CoupledSource : public ChangedSource {
 
 std::unique_ptr<LogSource> coupled(std::unique_ptr<LogSource> source, const Eigen::MatrixXd& coupling) {
   if (coupling.size() == 0) return source;
-  return std::make_unique<CoupledSource>(std::move(source), coupling);
+  return std::make_unique<StagedSource<Coupling>>(std::move(source), Coupling(coupling));
 }
 
 Log uncoupled(Log log, const Eigen::MatrixXd& coupling) {

@@ -6,34 +6,18 @@
 
 namespace faultline {
 
-DelayedTorqueSource::DelayedTorqueSource(LogSource& source, std::vector<double> delay_s,
-                                         std::vector<double> gain)
-    : ChangedSource(source), delay_s_(std::move(delay_s)), gain_(std::move(gain)) {
+DelayedTorque::DelayedTorque(std::vector<double> delay_s, std::vector<double> gain)
+    : delay_s_(std::move(delay_s)), gain_(std::move(gain)) {
   for (const double delay : delay_s_) {
     ahead_s_ = std::max(ahead_s_, -delay);
     behind_s_ = std::max(behind_s_, delay);
   }
 }
 
-DelayedTorqueSource::DelayedTorqueSource(std::unique_ptr<LogSource> source, std::vector<double> delay_s,
-                                         std::vector<double> gain)
-    : DelayedTorqueSource(*source, std::move(delay_s), std::move(gain)) {
-  owned_ = std::move(source);
-}
-
-void DelayedTorqueSource::rewind() {
-  source_.rewind();
-  rows_ = {};
-  at_end_ = false;
-  time_.clear();
-  tau_.clear();
-  position_.clear();
-}
-
 /// Appends one more segment of the source to the rows not handed out yet; returns false at the end.
-bool DelayedTorqueSource::fill() {
+bool DelayedTorque::fill(LogSource& source) {
   Log segment;
-  if (at_end_ || !source_.next(segment)) {
+  if (at_end_ || !source.next(segment)) {
     at_end_ = true;
     return false;
   }
@@ -42,11 +26,11 @@ bool DelayedTorqueSource::fill() {
   position_.resize(segment.tau.size(), 0);
   for (std::size_t j = 0; j < segment.tau.size(); ++j)
     tau_[j].insert(tau_[j].end(), segment.tau[j].begin(), segment.tau[j].end());
-  append(rows_, segment);
+  append(rows_, std::move(segment));
   return true;
 }
 
-double DelayedTorqueSource::torque_at(int joint, double t) {
+double DelayedTorque::torque_at(int joint, double t) {
   const std::vector<double>& tau = tau_[joint];
   std::size_t& k = position_[joint];
   while (k < time_.size() && time_[k] < t) ++k;
@@ -56,14 +40,13 @@ double DelayedTorqueSource::torque_at(int joint, double t) {
   return x == 1.0 ? tau[k] : tau[k - 1] + x * (tau[k] - tau[k - 1]);
 }
 
-bool DelayedTorqueSource::next(Log& segment) {
+bool DelayedTorque::next(LogSource& source, Log& segment) {
   while (rows_.rows() == 0 || rows_.time.front() + ahead_s_ > time_.back())
-    if (!fill()) break;
+    if (!fill(source)) break;
   if (rows_.rows() == 0) return false;
   int ready = rows_.rows();
   while (!at_end_ && ready > 0 && rows_.time[ready - 1] + ahead_s_ > time_.back()) --ready;
-  segment = slice(rows_, 0, ready);
-  rows_ = slice(rows_, ready, rows_.rows());
+  segment = take_front(rows_, ready);
   for (std::size_t j = 0; j < std::min(segment.tau.size(), delay_s_.size()); ++j)
     for (int k = 0; k < segment.rows(); ++k)
       segment.tau[j][k] = torque_at(static_cast<int>(j), segment.time[k] - delay_s_[j]);

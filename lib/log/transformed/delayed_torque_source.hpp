@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "lib/log/transformed/changed_source.hpp"
 
 namespace faultline {
 
-/// A log with compensated torque delays, for torques that act later (or earlier) than they are logged: the
-/// torque of joint j at time t is the logged one at t - delay_s[j], interpolated linearly between its samples
-/// and held constant before the first and after the last one. Torques are multiplied by `gain`, if given. All
-/// other channels pass unchanged.
-class DelayedTorqueSource : public ChangedSource {
+/// Compensates delays of torques, which act later (or earlier) than they are logged: the torque of joint j at
+/// time t is the logged one at t - delay_s[j], interpolated linearly between its samples and held constant
+/// before the first and after the last one. Torques are multiplied by `gain`, if given. All other channels
+/// pass unchanged.
+class DelayedTorque {
  public:
-  DelayedTorqueSource(LogSource& source, std::vector<double> delay_s, std::vector<double> gain = {});
-  DelayedTorqueSource(std::unique_ptr<LogSource> source, std::vector<double> delay_s,
-                      std::vector<double> gain = {});
+  DelayedTorque(std::vector<double> delay_s, std::vector<double> gain = {});
 
-  bool next(Log& segment) override;
-  void rewind() override;
+  bool next(LogSource& source, Log& segment);
 
  private:
-  bool fill();
+  bool fill(LogSource& source);
   double torque_at(int joint, double t);
 
   std::vector<double> delay_s_, gain_;  ///< by joint; further joints have no delay and gain 1
@@ -34,5 +30,7 @@ class DelayedTorqueSource : public ChangedSource {
   JointSignals tau_;
   std::vector<std::size_t> position_;  ///< by joint: first stored torque not before the last query
 };
+
+using DelayedTorqueSource = StagedSource<DelayedTorque>;
 
 }  // namespace faultline

@@ -40,18 +40,10 @@ Log with_empty_rows(const Log& log, const std::vector<int>& missing, double befo
 
 }  // namespace
 
-void EmptyRowsSource::rewind() {
-  source_.rewind();
-  head_ = {};
-  started_ = false;
-  period_s_ = jitter_ = last_s_ = 0.0;
-  rows_ = given_ = off_grid_ = 0;
-}
-
 /// Reads the first rows, for any segments of the source, and estimates the period; false without any.
-bool EmptyRowsSource::read_head() {
+bool InsertedRows::read_head(LogSource& source) {
   started_ = true;
-  for (Log segment; head_.rows() < kHeadRows && source_.next(segment);) append(head_, segment);
+  for (Log segment; head_.rows() < kHeadRows && source.next(segment);) append(head_, std::move(segment));
   const auto rows = std::min(head_.rows(), kHeadRows);
   period_s_ = median_step(std::span(head_.time).first(static_cast<std::size_t>(rows)));
   double deviations = 0.0;
@@ -66,7 +58,7 @@ bool EmptyRowsSource::read_head() {
   return head_.rows() > 0;
 }
 
-void EmptyRowsSource::follow_clock(double step) {
+void InsertedRows::follow_clock(double step) {
   const double periods = step / period_s_;
   off_grid_ += std::abs(periods - std::round(periods)) > kOffGrid;
   if (periods > kLostRow) return;
@@ -75,7 +67,7 @@ void EmptyRowsSource::follow_clock(double step) {
 }
 
 /// Returns the number of rows missing between the last one and this one.
-int EmptyRowsSource::missing_before(double time) {
+int InsertedRows::missing_before(double time) {
   const double step = time - last_s_;
   const double periods = step / period_s_, whole = std::round(periods);
   const bool is_regular =
@@ -86,12 +78,12 @@ int EmptyRowsSource::missing_before(double time) {
   return is_lost ? static_cast<int>(whole) - 1 : 0;
 }
 
-bool EmptyRowsSource::next(Log& segment) {
+bool InsertedRows::next(LogSource& source, Log& segment) {
   Log read;
   if (!started_) {
-    if (!read_head()) return false;
+    if (!read_head(source)) return false;
     std::swap(read, head_);
-  } else if (!source_.next(read)) {
+  } else if (!source.next(read)) {
     return false;
   }
   const double before_s = last_s_;

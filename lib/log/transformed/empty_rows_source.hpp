@@ -7,21 +7,18 @@
 
 namespace faultline {
 
-/// A log with an empty row (all values missing) for each row that is missing between two others on a regular
+/// Inserts an empty row (all values missing) for each row that is missing between two others on a regular
 /// clock, so that every stage treats a lost row like one recorded without values. Gaps of more than
 /// kMostEmptyRows rows, and those on a clock with jitter, stay gaps. The inserted rows are no rows of the
 /// log: identity() and issues() do not count them.
-class EmptyRowsSource : public ChangedSource {
+class InsertedRows {
  public:
-  using ChangedSource::ChangedSource;
-
-  bool next(Log& segment) override;
-  void rewind() override;
+  bool next(LogSource& source, Log& segment);
   /// Returns the number of rows inserted so far.
   std::int64_t rows_put_in() const { return given_ - rows_; }
 
  private:
-  bool read_head();
+  bool read_head(LogSource& source);
   int missing_before(double time);
   void follow_clock(double step);
 
@@ -31,6 +28,8 @@ class EmptyRowsSource : public ChangedSource {
   std::int64_t rows_ = 0, given_ = 0;
   std::int64_t off_grid_ = 0;  ///< steps so far that are not a whole number of periods
 };
+
+using EmptyRowsSource = StagedSource<InsertedRows>;
 
 /// Most missing rows that are inserted; more of them are a gap.
 inline constexpr int kMostEmptyRows = 4;

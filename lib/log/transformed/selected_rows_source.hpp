@@ -16,14 +16,13 @@ struct RowRange {
   std::int64_t end = 0;
 };
 
-/// A log that hands out only some of its rows; the others are a gap. All else passes unchanged.
-class SelectedRowsSource : public ChangedSource {
+/// Hands out only some rows of a log; the others are a gap. All else passes unchanged.
+class SelectedRows {
  public:
   /// The ranges ascend and do not overlap.
-  SelectedRowsSource(LogSource& source, std::vector<RowRange> ranges)
-      : ChangedSource(source), ranges_(std::move(ranges)) {}
+  SelectedRows(std::vector<RowRange> ranges) : ranges_(std::move(ranges)) {}
 
-  bool next(Log& segment) override {
+  bool next(LogSource& source, Log& segment) {
     for (;;) {
       const std::int64_t last = rows_.first_row + rows_.rows();
       while (range_ < ranges_.size() && ranges_[range_].end <= told_) ++range_;
@@ -34,16 +33,9 @@ class SelectedRowsSource : public ChangedSource {
                         static_cast<int>(told_ - rows_.first_row));
         return true;
       }
-      if (!source_.next(rows_)) return false;
+      if (!source.next(rows_)) return false;
       told_ = rows_.first_row;
     }
-  }
-
-  void rewind() override {
-    source_.rewind();
-    rows_ = {};
-    told_ = 0;
-    range_ = 0;
   }
 
  private:
@@ -52,5 +44,7 @@ class SelectedRowsSource : public ChangedSource {
   std::int64_t told_ = 0;  ///< rows before this one are handed out or skipped
   std::size_t range_ = 0;
 };
+
+using SelectedRowsSource = StagedSource<SelectedRows>;
 
 }  // namespace faultline

@@ -51,7 +51,7 @@ TEST(DelayedTorqueSource, WholeSamplesAreHandedOnWithinRounding) {
 
 TEST(DelayedTorqueSource, GainsMultiplyTheTorqueOfTheirJoints) {
   MemorySource source(ramp(50), "ramp", 7);
-  DelayedTorqueSource scaled(source, {}, {1.0, 1.25});
+  DelayedTorqueSource scaled(source, {{}, {1.0, 1.25}});
   const Log log = read_all(scaled), raw = ramp(50);
   EXPECT_EQ(log.tau[0], raw.tau[0]);
   for (int k = 0; k < 50; ++k) EXPECT_EQ(log.tau[1][k], 1.25 * raw.tau[1][k]);
@@ -59,7 +59,7 @@ TEST(DelayedTorqueSource, GainsMultiplyTheTorqueOfTheirJoints) {
 
 TEST(DelayedTorqueSource, RewindGivesTheSameRowsAgain) {
   MemorySource source(ramp(100), "ramp", 9);
-  DelayedTorqueSource late(source, {0.006, -0.003});
+  DelayedTorqueSource late(source, {{0.006, -0.003}});
   const Log once = read_all(late);
   late.rewind();
   EXPECT_EQ(read_all(late).tau, once.tau);

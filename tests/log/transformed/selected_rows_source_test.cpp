@@ -32,7 +32,7 @@ TEST(SelectedRowsSource, TellsTheRowsOfItsRangesWhateverTheSegments) {
   const std::vector<double> expected = {3, 4, 5, 9, 10, 11, 12, 29};
   for (const int segment_rows : {1, 2, 5, 7, 30}) {
     MemorySource source(counting(30), "counting", segment_rows);
-    SelectedRowsSource selected(source, {{3, 6}, {9, 13}, {29, 1'000'000}});
+    SelectedRowsSource selected(source, {{{3, 6}, {9, 13}, {29, 1'000'000}}});
     EXPECT_EQ(told(selected), expected) << segment_rows;
     selected.rewind();
     EXPECT_EQ(told(selected), expected) << segment_rows << ", again";
@@ -41,13 +41,13 @@ TEST(SelectedRowsSource, TellsTheRowsOfItsRangesWhateverTheSegments) {
 
 TEST(SelectedRowsSource, RangesThatTouchAreToldWithoutAGap) {
   MemorySource source(counting(10), "counting", 4);
-  SelectedRowsSource selected(source, {{0, 3}, {3, 10}});
+  SelectedRowsSource selected(source, {{{0, 3}, {3, 10}}});
   EXPECT_EQ(told(selected).size(), 10u);
 }
 
 TEST(SelectedRowsSource, NoRangesAreNoRows) {
   MemorySource source(counting(10), "counting", 4);
-  SelectedRowsSource none(source, {}), beyond(source, {{10, 20}});
+  SelectedRowsSource none(source, {{}}), beyond(source, {{{10, 20}}});
   EXPECT_TRUE(told(none).empty());
   source.rewind();
   EXPECT_TRUE(told(beyond).empty());
