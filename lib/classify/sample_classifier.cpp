@@ -127,10 +127,9 @@ SampleFeatures features_from(const std::string& name, const std::string& where) 
 
 Mlp train_mlp(const Patterns& training, const Patterns& validation, const SampleClassifierOptions& options,
               const Progress& progress) {
-  std::vector<int> sizes{static_cast<int>(training.inputs.rows())};
-  sizes.insert(sizes.end(), options.hidden.begin(), options.hidden.end());
-  sizes.push_back(static_cast<int>(training.targets.rows()));
-  Mlp start = make_mlp(sizes, options.output, options.seed);
+  const int inputs = static_cast<int>(training.inputs.rows()),
+            outputs = static_cast<int>(training.targets.rows());
+  Mlp start = make_mlp({inputs, options.hidden, outputs}, options.output, options.seed);
   const auto train =
       options.trainer == SampleTrainer::back_propagation ? train_back_propagation : train_quasi_newton;
   return train(

@@ -68,7 +68,7 @@ enum class SampleTrainer { quasi_newton, back_propagation };
 
 struct SampleClassifierOptions {
   SampleFeatures features = SampleFeatures::torque_space;
-  std::vector<int> hidden = {20};
+  int hidden = 20;
   /// Softmax trained by cross-entropy gives probabilities; linear trained on 1 and 0 is the paper's.
   OutputKind output = OutputKind::softmax;
   SampleTrainer trainer = SampleTrainer::quasi_newton;  ///< of the MLP; back-propagation is the paper's

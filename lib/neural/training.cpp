@@ -132,35 +132,16 @@ struct Point {
   LossGradient cost;
 };
 
-/// The function to be minimised.
-struct Objective {
-  const Patterns& patterns;
-  double weight_decay = 0.0;
-
-  LossGradient at(const Mlp& mlp) const {
-    return loss_gradient(mlp, patterns.inputs, patterns.targets, weight_decay);
-  }
-};
-
-/// Direction and initial length of a line search.
-struct Ray {
-  VectorXd along;
-  double length = 1.0;
-};
-
-/// Halves the step until the loss falls by a share of the slope's prediction (Armijo). Returns false, with
-/// the old weights, if no step does.
-bool search(Mlp& mlp, const Objective& objective, const Point& from, const Ray& ray, Point& found) {
-  const double slope = from.cost.gradient.dot(ray.along);
-  double length = ray.length;
+/// Halves the step along `along`, at first `length` of it, until the loss falls by a share of the slope's
+/// prediction (Armijo); `at` returns the point with some weights. Empty if no step does.
+template <typename At>
+std::optional<Point> search(const Point& from, const VectorXd& along, double length, const At& at) {
+  const double slope = from.cost.gradient.dot(along);
   for (int halvings = 0; halvings < 40; ++halvings, length *= 0.5) {
-    found.weights = from.weights + length * ray.along;
-    set_parameters(mlp, found.weights);
-    found.cost = objective.at(mlp);
-    if (found.cost.loss <= from.cost.loss + 1e-4 * length * slope) return true;
+    Point found = at(from.weights + length * along);
+    if (found.cost.loss <= from.cost.loss + 1e-4 * length * slope) return found;
   }
-  set_parameters(mlp, from.weights);
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -197,27 +178,26 @@ Mlp train_levenberg_marquardt(Mlp start, const Patterns& training, const Pattern
                               const TrainingOptions& options, const Progress& progress) {
   TrainingMonitor watch(start, {training, validation, options, progress, "Levenberg-Marquardt training"});
   Mlp mlp = std::move(start);
-  const bool projected = has_projected_outputs(mlp);
-  if (projected) mlp.layers.back() = fitted_outputs(mlp, training, options.weight_decay);
+  mlp.layers.back() = fitted_outputs(mlp, training, options.weight_decay);
   VectorXd weights = parameters_of(mlp);
   LossGradient now = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);
   Damping damping;
   for (;;) {
-    const GaussNewtonSystem system(mlp, training.inputs, options.weight_decay);
-    if (damping.value == 0.0) damping.value = kInitialDamping * system.mean_diagonal();
+    const MatrixXd matrix = hidden_layer_matrix(mlp, training.inputs, options.weight_decay);
+    if (damping.value == 0.0) damping.value = kInitialDamping * matrix.diagonal().mean();
     if (now.gradient.norm() < 1e-13) return watch.finish(std::move(mlp));
     for (int tries = 0;; ++tries) {
       if (tries == 30) {
         set_parameters(mlp, weights);
         return watch.finish(std::move(mlp));
       }
-      const std::optional<VectorXd> step = system.step(now.gradient, damping.value);
+      const std::optional<VectorXd> step = gauss_newton_step(matrix, now.gradient, damping.value);
       if (!step) {
         damping.reject();
         continue;
       }
       set_parameters(mlp, weights + *step);
-      if (projected) mlp.layers.back() = fitted_outputs(mlp, training, options.weight_decay);
+      mlp.layers.back() = fitted_outputs(mlp, training, options.weight_decay);
       LossGradient next = loss_gradient(mlp, training.inputs, training.targets, options.weight_decay);
       const double promised = 0.5 * step->dot(damping.value * *step - now.gradient);
       if (next.loss < now.loss) {
@@ -236,27 +216,33 @@ Mlp train_quasi_newton(Mlp start, const Patterns& training, const Patterns& vali
                        const TrainingOptions& options, const Progress& progress) {
   TrainingMonitor watch(start, {training, validation, options, progress, "quasi-Newton training"});
   Mlp mlp = std::move(start);
-  const Objective objective{training, options.weight_decay};
-  Point now{parameters_of(mlp), objective.at(mlp)}, next;
+  const auto at = [&](const VectorXd& weights) {
+    set_parameters(mlp, weights);
+    return Point{weights, loss_gradient(mlp, training.inputs, training.targets, options.weight_decay)};
+  };
+  Point now = at(parameters_of(mlp));
   std::deque<Pair> memory;
   for (;;) {
-    if (now.cost.gradient.norm() < 1e-12) return watch.finish(std::move(mlp));
-    Ray ray{direction(memory, now.cost.gradient)};
-    if (ray.along.dot(now.cost.gradient) >= 0.0) {
+    const VectorXd& gradient = now.cost.gradient;
+    if (gradient.norm() < 1e-12) return watch.finish(std::move(mlp));
+    VectorXd along = direction(memory, gradient);
+    if (along.dot(gradient) >= 0.0) {
       memory.clear();
-      ray.along = -now.cost.gradient;
+      along = -gradient;
     }
-    if (memory.empty()) ray.length = std::min(1.0, 1.0 / now.cost.gradient.norm());
-    if (!search(mlp, objective, now, ray, next)) {
+    std::optional<Point> next =
+        search(now, along, memory.empty() ? std::min(1.0, 1.0 / gradient.norm()) : 1.0, at);
+    if (!next) {
+      set_parameters(mlp, now.weights);
       if (memory.empty()) return watch.finish(std::move(mlp));
       memory.clear();
       continue;
     }
-    Pair pair{next.weights - now.weights, next.cost.gradient - now.cost.gradient};
+    Pair pair{next->weights - now.weights, next->cost.gradient - gradient};
     if (pair.step.dot(pair.change) > 1e-12 * pair.step.norm() * pair.change.norm())
       memory.push_back(std::move(pair));
     if (static_cast<int>(memory.size()) > kStoredSteps) memory.pop_front();
-    std::swap(now, next);
+    now = *std::move(next);
     if (watch.ends_after(mlp, now.cost.loss)) return watch.finish(std::move(mlp));
   }
 }

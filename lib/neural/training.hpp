@@ -25,9 +25,9 @@ struct TrainingOptions {
 Mlp train_back_propagation(Mlp start, const Patterns& training, const Patterns& validation,
                            const TrainingOptions& options = {}, const Progress& progress = {});
 
-/// Gauss-Newton with Levenberg's damping (Marquardt 1963), controlled by the gain ratio (Nielsen 1999). With
-/// one hidden layer and a linear output the normal matrix comes from one Gram matrix (docs/neural.md), which
-/// makes hundreds of parameters cheap; other networks use a dense Jacobian and should be small.
+/// Gauss-Newton with Levenberg's damping (Marquardt 1963), controlled by the gain ratio (Nielsen 1999), for
+/// networks with one hidden layer and a linear output: their normal matrix comes from one Gram matrix
+/// (docs/neural.md), which makes hundreds of parameters cheap.
 Mlp train_levenberg_marquardt(Mlp start, const Patterns& training, const Patterns& validation,
                               const TrainingOptions& options = {}, const Progress& progress = {});
 

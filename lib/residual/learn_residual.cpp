@@ -42,10 +42,9 @@ Patterns scaled_patterns(const ResidualGenerator& generator, const Transitions& 
 
 Mlp train_network(const Patterns& training, const Patterns& validation, const ResidualOptions& options,
                   const Progress& progress) {
-  std::vector<int> sizes{static_cast<int>(training.inputs.rows())};
-  sizes.insert(sizes.end(), options.hidden.begin(), options.hidden.end());
-  sizes.push_back(static_cast<int>(training.targets.rows()));
-  Mlp start = make_mlp(sizes, OutputKind::linear, options.seed);
+  const int inputs = static_cast<int>(training.inputs.rows()),
+            outputs = static_cast<int>(training.targets.rows());
+  Mlp start = make_mlp({inputs, options.hidden, outputs}, OutputKind::linear, options.seed);
   TrainingOptions trainer{.weight_decay = options.weight_decay, .seed = options.seed};
   if (options.trainer == ResidualTrainer::back_propagation) {
     trainer.max_iterations = options.max_iterations > 0 ? options.max_iterations : 1500;

@@ -53,10 +53,23 @@ double share_right(const Mlp& mlp, const Patterns& patterns) {
   return static_cast<double>(right) / patterns.count();
 }
 
-/// Dense normal equations with decay 0.02 of a network 4-5-3: weights have it, biases have none.
-MatrixXd dense_normal_equations(const Mlp& mlp, const MatrixXd& inputs) {
-  MatrixXd dense = gauss_newton_matrix(mlp, inputs).selfadjointView<Eigen::Lower>();
-  for (int p = 0; p < mlp.parameters(); ++p) {
+/// Dense normal equations with decay 0.02 of a network 4-5-3, by differences of its outputs: weights have the
+/// decay, biases have none.
+MatrixXd dense_normal_equations(Mlp mlp, const MatrixXd& inputs) {
+  constexpr double kStep = 1e-5;
+  const Eigen::VectorXd at = parameters_of(mlp);
+  MatrixXd slopes(3 * inputs.cols(), at.size());
+  for (int p = 0; p < at.size(); ++p) {
+    const auto outputs_beside = [&](double step) {
+      Eigen::VectorXd there = at;
+      there[p] += step;
+      set_parameters(mlp, there);
+      return forward(mlp, inputs);
+    };
+    slopes.col(p) = ((outputs_beside(kStep) - outputs_beside(-kStep)) / (2.0 * kStep)).reshaped();
+  }
+  MatrixXd dense = slopes.transpose() * slopes / static_cast<double>(inputs.cols());
+  for (int p = 0; p < at.size(); ++p) {
     const bool is_bias = (p >= 20 && p < 25) || p >= 40;  // 4 x 5 weights, 5 biases, 5 x 3 weights, 3 biases
     if (!is_bias) dense(p, p) += 0.02;
   }
@@ -73,9 +86,9 @@ TEST(NormalEquations, AStepOfTheHiddenLayerIsThatOfTheDenseEquationsWithFittedOu
   MatrixXd dense = dense_normal_equations(mlp, patterns.inputs);
   dense.diagonal().head(25).array() += damping;
   const Eigen::VectorXd expected = -dense.ldlt().solve(gradient);
-  const auto step = GaussNewtonSystem(mlp, patterns.inputs, 0.02).step(gradient, damping);
+  const auto step = gauss_newton_step(hidden_layer_matrix(mlp, patterns.inputs, 0.02), gradient, damping);
   ASSERT_TRUE(step);
-  EXPECT_LT((step->head(25) - expected.head(25)).norm(), 1e-8 * expected.norm());
+  EXPECT_LT((step->head(25) - expected.head(25)).norm(), 1e-7 * expected.norm());
   EXPECT_EQ(step->tail(18).norm(), 0.0);
 }
 
@@ -89,36 +102,10 @@ TEST(NormalEquations, OutputsAreFittedWhenHiddenUnitsAreCopies) {
   EXPECT_LT(mean_squared_error(mlp, patterns), 1e-18);
 }
 
-TEST(NormalEquations, AreTheHessianWhereTheFitIsPerfect) {
-  for (OutputKind output : {OutputKind::linear, OutputKind::logistic, OutputKind::softmax}) {
-    Mlp mlp = make_mlp({2, 3, 3}, output, 4);
-    const MatrixXd inputs = MatrixXd::Random(2, 8), targets = forward(mlp, inputs);
-    const MatrixXd normal = gauss_newton_matrix(mlp, inputs);
-    const Eigen::VectorXd at = parameters_of(mlp);
-    for (int p = 0; p < mlp.parameters(); ++p) {
-      Eigen::VectorXd there = at;
-      there[p] += 1e-6;
-      set_parameters(mlp, there);
-      const Eigen::VectorXd column = loss_gradient(mlp, inputs, targets).gradient / 1e-6;
-      for (int row = p; row < mlp.parameters(); ++row)
-        EXPECT_NEAR(normal(row, p), column[row], 2e-6) << to_string(output);
-    }
-  }
-}
-
 TEST(LevenbergMarquardt, FitsASmoothSurfaceClosely) {
   const Mlp trained = train_levenberg_marquardt(make_mlp({2, 12, 2}), surface(400, 1), surface(200, 2),
                                                 {.max_iterations = 80});
   EXPECT_LT(mean_squared_error(trained, surface(500, 3)), 1e-5);
-}
-
-TEST(LevenbergMarquardt, TrainsDeepNetworksAndClassifiers) {
-  const Mlp deep = train_levenberg_marquardt(make_mlp({2, 6, 5, 2}), surface(300, 1), {}, {});
-  EXPECT_LT(mean_squared_error(deep, surface(300, 1)), 1e-5);
-  const Mlp classifier =
-      train_levenberg_marquardt(make_mlp({2, 8, 3}, OutputKind::softmax), classes(400, 1), classes(200, 2),
-                                {.max_iterations = 60, .weight_decay = 1e-4});
-  EXPECT_GT(share_right(classifier, classes(500, 3)), 0.95);
 }
 
 TEST(BackPropagation, FitsTheSurfaceAndIsRepeatable) {

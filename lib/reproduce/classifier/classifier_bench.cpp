@@ -39,7 +39,7 @@ ClassifierRecipe noisy(const ClassifierRecipe& clean, double sigma, double weigh
 ClassifierRecipe with_many(ClassifierRecipe recipe, int trajectories) {
   recipe.trajectories = trajectories;
   recipe.classifier.weight_decay = 1e-5;
-  recipe.classifier.hidden = {30};
+  recipe.classifier.hidden = 30;
   recipe.classifier.max_iterations = recipe.classifier.max_iterations * 5 / 8;
   recipe.classifier.map.rows = recipe.classifier.map.columns = 14;
   recipe.classifier.map.epochs = 5;

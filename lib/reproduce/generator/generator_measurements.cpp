@@ -52,7 +52,7 @@ Errors hybrid_errors(const Chain& chain, double torque_phi, const GeneratorScale
                      const IdentifiedBench& on) {
   GeneratorRecipe recipe = mlp_recipe(scale.trajectories, scale.iterations);
   recipe.fit.kind = ResidualKind::hybrid;
-  recipe.fit.hidden = {20};
+  recipe.fit.hidden = 20;
   recipe.next_torque = !is_held(on);
   recipe.torque_phi = torque_phi;
   recipe.assumed = chain;
