@@ -9,11 +9,11 @@
 #include "apps/work/file_use.hpp"
 #include "apps/work/robot_log.hpp"
 #include "formats/open_log.hpp"
-#include "lib/compare/comparison_text.hpp"
+#include "lib/compare/compare_runs.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/diagnose/monitor/model_rate.hpp"
-#include "lib/log/derive.hpp"
+#include "lib/log/derived_velocity.hpp"
 #include "lib/model/model.hpp"
 #include "lib/report/html/comparison/comparison_page.hpp"
 

@@ -7,7 +7,7 @@
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/log/log_run.hpp"
+#include "lib/log/time_axis.hpp"
 
 namespace faultline {
 namespace {

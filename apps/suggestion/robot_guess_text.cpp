@@ -6,7 +6,7 @@
 #include "apps/suggestion/robot_guess.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/column_matching.hpp"
-#include "lib/robot/toml/toml_text.hpp"
+#include "lib/robot/toml/toml_values.hpp"
 
 namespace faultline {
 namespace {

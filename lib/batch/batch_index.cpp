@@ -10,7 +10,7 @@
 #include "lib/batch/page/index_page.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/files/other_names.hpp"
+#include "lib/core/files/output_place.hpp"
 
 namespace faultline {
 namespace {

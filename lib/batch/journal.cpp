@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "lib/core/atomic_file.hpp"
-#include "lib/core/files/other_names.hpp"
+#include "lib/core/files/output_place.hpp"
 #include "lib/core/files/plain_name.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/core/json/json_fields.hpp"

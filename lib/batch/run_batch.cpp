@@ -13,7 +13,7 @@
 
 #include "lib/batch/batch_index.hpp"
 #include "lib/batch/log_result.hpp"
-#include "lib/core/files/other_names.hpp"
+#include "lib/core/files/output_place.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/compare/comparison_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lib/compare/compare_runs.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/outgoing/json_text.hpp"

@@ -12,7 +12,7 @@
 #include "lib/diagnose/condition.hpp"
 #include "lib/explain/evidence_course.hpp"
 #include "lib/fault/fault_kind.hpp"
-#include "lib/log/log_run.hpp"
+#include "lib/log/time_axis.hpp"
 #include "lib/residual/residuals.hpp"
 
 /// The one result of diagnosing a log; every report is a rendering of it. Schema "faultline/diagnosis/1".

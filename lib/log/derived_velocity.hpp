@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <span>
+
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 
@@ -24,5 +27,10 @@ VelocityDelay velocity_delay(std::span<const double> time, std::span<const doubl
 /// Whether a velocity was computed from the position, and so is no independent measurement: it is a
 /// difference, or late or early as that of a filter is.
 bool is_derived(std::span<const double> time, std::span<const double> q, std::span<const double> dq);
+
+/// Returns the log with velocities: if it records none, the velocity of a sample is the slope of the
+/// least-squares parabola through the positions around it (Savitzky and Golay, on the recorded times),
+/// without missing positions; NaN with fewer than three. A log that records velocities passes unchanged.
+std::unique_ptr<LogSource> with_velocity(std::unique_ptr<LogSource> source);
 
 }  // namespace faultline

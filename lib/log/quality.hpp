@@ -7,7 +7,6 @@
 
 #include "lib/core/issue.hpp"
 #include "lib/log/log.hpp"
-#include "lib/log/log_run.hpp"
 #include "lib/log/time_axis.hpp"
 #include "lib/log/velocity_check.hpp"
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "lib/core/json_values.hpp"
 #include "lib/core/statistics.hpp"
 
 namespace faultline {
@@ -86,6 +88,16 @@ TimeAxis TimeAxisPass::result() const {
   const std::int64_t steps = done.judged_ - done.axis_.gaps;
   if (steps > 0) done.axis_.jitter_s = std::sqrt(done.squares_ / static_cast<double>(steps));
   return done.axis_;
+}
+
+nlohmann::ordered_json log_run_json(const LogRun& run) {
+  return {{"run", run.run},
+          {"first_row", run.first_row},
+          {"rows", run.rows},
+          {"start_s", number_or_null(run.start_s)},
+          {"end_s", number_or_null(run.end_s)},
+          {"clock_offset_s", number_or_null(run.clock_offset_s)},
+          {"read", run.is_read}};
 }
 
 }  // namespace faultline

@@ -4,7 +4,7 @@
 #include "lib/core/issue.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
-#include "lib/log/log_run.hpp"
+#include "lib/log/time_axis.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {

@@ -183,7 +183,7 @@ ResidualGenerator untrained(const Robot& robot, const Survey& survey, const Tran
   generator.kind = options.kind;
   generator.target = options.target;
   generator.shape = shape;
-  generator.uses_mean_torque = options.mean_torque && (shape.step > 1 || shape.torque_phi != 0.0);
+  generator.uses_mean_torque = shape.step > 1 || shape.torque_phi != 0.0;
   generator.chain = robot.chain;
   for (int j = 0; j < robot.joints(); ++j)
     generator.turns.push_back(robot.chain.geometry[j].kind == AxisKind::revolute &&

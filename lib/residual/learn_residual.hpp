@@ -22,7 +22,6 @@ struct ResidualOptions {
   PredictedQuantity target = PredictedQuantity::change;
   ResidualTrainer trainer = ResidualTrainer::levenberg_marquardt;
   int hidden = 49;          ///< units of the hidden layer
-  bool mean_torque = true;  ///< mean torque over the step as further inputs, if it can differ from the first
   int max_patterns = 2000;  ///< trained on, drawn from the logs at random
   /// Patterns made by the identified robot around the logged states, as a share of max_patterns: a few logs
   /// cover few moves, and a faulty robot leaves them. Kind mlp on an identified robot only; 0 = logs alone,

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "lib/robot/toml/toml_text.hpp"
 #include "lib/robot/toml/toml_values.hpp"
 
 namespace faultline {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <utility>
 
 #include "lib/core/error.hpp"
@@ -19,6 +21,10 @@ constexpr double kNearlyHeld = 0.25;
 bool ends_in_wrist(const std::string& axes) {
   return axes.ends_with("PR") && std::count(axes.begin(), axes.end(), 'R') > 2;
 }
+
+constexpr std::pair<const char*, double Friction::*> kFrictionTerms[] = {
+    {"fv", &Friction::viscous}, {"fc", &Friction::coulomb}, {"fo", &Friction::offset},
+    {"fb", &Friction::bend},    {"fs", &Friction::skew},    {"fl", &Friction::load}};
 
 }  // namespace
 
@@ -95,27 +101,15 @@ Robot with_masses_and_lengths(Robot robot, const std::vector<double>& masses,
 const char* to_string(AxisKind kind) { return kind == AxisKind::revolute ? "revolute" : "prismatic"; }
 
 const char* to_string(LinkShape shape) {
-  switch (shape) {
-    case LinkShape::rod:
-      return "rod";
-    case LinkShape::point:
-      return "point";
-    case LinkShape::general:
-      return "general";
-  }
-  return "";
+  static constexpr std::array kNames{"rod", "point", "general"};
+  static_assert(kNames.size() == static_cast<std::size_t>(LinkShape::general) + 1);
+  return kNames[static_cast<std::size_t>(shape)];
 }
 
 const char* to_string(TorqueMeaning meaning) {
-  switch (meaning) {
-    case TorqueMeaning::commanded:
-      return "commanded";
-    case TorqueMeaning::measured:
-      return "measured";
-    case TorqueMeaning::current:
-      return "current";
-  }
-  return "";
+  static constexpr std::array kNames{"commanded", "measured", "current"};
+  static_assert(kNames.size() == static_cast<std::size_t>(TorqueMeaning::current) + 1);
+  return kNames[static_cast<std::size_t>(meaning)];
 }
 
 const char* logged_words(TorqueMeaning meaning) {
@@ -123,21 +117,55 @@ const char* logged_words(TorqueMeaning meaning) {
 }
 
 const char* to_string(TorqueTiming timing) {
-  switch (timing) {
-    case TorqueTiming::held:
-      return "held";
-    case TorqueTiming::linear:
-      return "linear";
-    case TorqueTiming::unknown:
-      return "unknown";
-  }
-  return "";
+  static constexpr std::array kNames{"held", "linear", "unknown"};
+  static_assert(kNames.size() == static_cast<std::size_t>(TorqueTiming::unknown) + 1);
+  return kNames[static_cast<std::size_t>(timing)];
 }
 
 TorqueTiming torque_between_samples(const Robot& robot) {
   const TorqueTiming stated = robot.log.torque_between_samples;
   if (stated != TorqueTiming::unknown || !robot.torque_phi) return stated;
   return *robot.torque_phi < kNearlyHeld ? TorqueTiming::held : TorqueTiming::linear;
+}
+
+std::vector<std::string> parameter_names(int joints) {
+  std::vector<std::string> names;
+  for (const char* prefix : {"m", "l", "fv", "fc", "fo", "fb", "fs", "fl", "jr"})
+    for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
+  return names;
+}
+
+bool set_parameter(Robot& robot, const std::string& name, double value) {
+  const std::size_t digits = name.find_first_of("0123456789");
+  int joint = 0;
+  if (digits == std::string::npos || digits == 0) return false;
+  const auto [end, error] = std::from_chars(name.data() + digits, name.data() + name.size(), joint);
+  if (error != std::errc() || end != name.data() + name.size() || joint < 1 || joint > robot.joints())
+    return false;
+  const std::string what = name.substr(0, digits);
+  const int i = joint - 1;
+  Chain& chain = robot.chain;
+  LinkInertia& link = chain.links[i];
+  for (const auto& [prefix, term] : kFrictionTerms) {
+    if (what != prefix) continue;
+    chain.friction[i].*term = value;
+    return true;
+  }
+  if (what == "jr")
+    chain.rotor_inertia[i] = value;
+  else if (what == "l")
+    chain.length[i] = value;
+  else if (what != "m")
+    return false;
+  if (robot.shapes[i] == LinkShape::rod && (what == "m" || what == "l")) {
+    link = uniform_rod(what == "m" ? value : link.mass, chain.length[i], link_direction(robot, i));
+  } else if (robot.shapes[i] == LinkShape::point && what == "m") {
+    link = point_mass(value);
+  } else if (what == "m") {  // a general body keeps its shape: everything scales with the mass
+    const double ratio = link.mass > 0.0 ? value / link.mass : 0.0;
+    link = {value, ratio * link.first_moment, ratio * link.inertia};
+  }
+  return true;
 }
 
 }  // namespace faultline

@@ -107,4 +107,11 @@ const char* to_string(TorqueTiming timing);
 /// where it does not, the nearer one to the identified timing; unknown without either.
 TorqueTiming torque_between_samples(const Robot& robot);
 
+/// Names of the parameters that a robot file may state: m1.., l1.., fv1.. and so on (see Robot::known).
+std::vector<std::string> parameter_names(int joints);
+
+/// Sets the parameter `name` in `robot.chain` without adding it to `robot.known`. The mass of a general link
+/// scales its whole inertia. Returns false if the robot has no such parameter.
+bool set_parameter(Robot& robot, const std::string& name, double value);
+
 }  // namespace faultline

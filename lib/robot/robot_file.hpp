@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "lib/robot/parameter.hpp"
 #include "lib/robot/robot.hpp"
 #include "lib/robot/toml/toml_table.hpp"
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -188,15 +189,9 @@ void finish(SimulatedRun& run, int rows, const std::vector<SimulatedFault>& faul
 }  // namespace
 
 const char* to_string(EndReason reason) {
-  switch (reason) {
-    case EndReason::complete:
-      return "complete";
-    case EndReason::overspeed_trip:
-      return "overspeed_trip";
-    case EndReason::diverged:
-      return "diverged";
-  }
-  return "unknown";
+  static constexpr std::array kNames{"complete", "overspeed_trip", "diverged"};
+  static_assert(kNames.size() == static_cast<std::size_t>(EndReason::diverged) + 1);
+  return kNames[static_cast<std::size_t>(reason)];
 }
 
 void check_simulation(const Robot& robot, const SimulationSpec& spec) {

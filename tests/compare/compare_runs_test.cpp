@@ -6,7 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "lib/compare/comparison_text.hpp"
 #include "lib/core/error.hpp"
 #include "lib/report/html/comparison/comparison_page.hpp"
 #include "tests/learn/small_robot.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
-#include "lib/log/derive.hpp"
+#include "lib/log/derived_velocity.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/log/resample.hpp"
 

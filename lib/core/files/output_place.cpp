@@ -45,6 +45,8 @@ std::string identity(const struct stat& facts) {
   return std::to_string(facts.st_dev) + ":" + std::to_string(facts.st_ino);
 }
 
+bool is_known_by_several(const struct stat& facts) { return S_ISREG(facts.st_mode) && facts.st_nlink > 1; }
+
 }  // namespace
 
 OutputPlace output_place(const std::string& path) {
@@ -85,6 +87,19 @@ std::string real_path(const std::string& path) {
   std::error_code error;
   const fs::path real = fs::weakly_canonical(fs::absolute(output_place(path).path, error), error);
   return (real.has_filename() ? real : real.parent_path()).string();
+}
+
+bool has_other_names(int descriptor) {
+  struct stat facts {};
+  return ::fstat(descriptor, &facts) == 0 && is_known_by_several(facts);
+}
+
+void refuse_other_names(const std::string& path) {
+  struct stat facts {};
+  if (::stat(path.c_str(), &facts) == 0 && is_known_by_several(facts))
+    throw Error(ErrorCode::output, path,
+                "has another name as well (a hard link), and writing here would change that file, too; "
+                "nothing was changed. Replace it by a copy of the file");
 }
 
 }  // namespace faultline

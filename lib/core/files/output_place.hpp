@@ -23,4 +23,10 @@ std::string file_identity(const std::string& path);
 /// Returns the absolute path behind all links, without . and .. and without a slash at its end.
 std::string real_path(const std::string& path);
 
+/// Whether an open file has several names (hard links): writing to it changes it under all of them.
+bool has_other_names(int descriptor);
+
+/// Throws Error(output) if a file that is changed in place has several names; a missing file has none.
+void refuse_other_names(const std::string& path);
+
 }  // namespace faultline

@@ -8,7 +8,7 @@
 #include "lib/diagnose/monitor/monitored_log.hpp"
 #include "lib/explain/signal_stretch.hpp"
 #include "lib/log/log.hpp"
-#include "lib/log/log_run.hpp"
+#include "lib/log/time_axis.hpp"
 #include "lib/model/model.hpp"
 #include "lib/residual/residuals.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "lib/diagnose/diagnosis.hpp"
 #include "lib/log/log.hpp"
-#include "lib/log/log_run.hpp"
+#include "lib/log/time_axis.hpp"
 
 namespace faultline {
 

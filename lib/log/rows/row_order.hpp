@@ -9,7 +9,7 @@
 
 #include "lib/core/issue.hpp"
 #include "lib/log/log.hpp"
-#include "lib/log/log_run.hpp"
+#include "lib/log/time_axis.hpp"
 
 namespace faultline {
 

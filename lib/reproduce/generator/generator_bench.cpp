@@ -8,7 +8,7 @@
 
 #include "lib/identify/identify.hpp"
 #include "lib/log/memory_source.hpp"
-#include "lib/robot/parameter.hpp"
+#include "lib/robot/robot.hpp"
 
 namespace faultline {
 

@@ -180,28 +180,22 @@ ResultTable generator_friction_table(const GeneratorMeasurements& measured, cons
   return table;
 }
 
-Goal goal(const GeneratorMeasurements& measured, const char* name, ControllerVariant controller) {
+Goal goal(const GeneratorMeasurements& measured, const char* name, ControllerVariant controller,
+          const char* what, const char* paper, const char* study, double bound) {
   const auto mse = measured.mse(measured.find(name), static_cast<int>(controller), GeneratorTest::clean);
-  return {.what = name, .paper = "-", .study = "-", .measured = mse.value_or(Measured{})};
+  return {.what = what, .paper = paper, .study = study, .bound = bound, .measured = mse.value_or(Measured{})};
 }
 
 std::vector<Goal> goals_of(const GeneratorMeasurements& smooth, const GeneratorMeasurements& friction,
                            bool is_quick) {
-  Goal second_order = goal(smooth, kLevenbergMarquardt, ControllerVariant::held);
-  second_order.what = "generator MLP 9-49-6, 2500 patterns, clean, held, Levenberg-Marquardt";
-  second_order.paper = "small";
-  second_order.study = "3.9e-5";
-  second_order.bound = 4e-5;
-  Goal gradient = goal(smooth, kBackPropagation, ControllerVariant::held);
-  gradient.what = "generator MLP 9-49-6, 2500 patterns, clean, held, back-propagation";
-  gradient.paper = "small";
-  gradient.study = "4.0e-4";
-  gradient.bound = 4e-4;
-  Goal hybrid = goal(friction, kHybrid, ControllerVariant::fast);
-  hybrid.what = "generator hybrid on a robot with friction, clean, fast, identified from logs alone";
-  hybrid.study = "8.1e-5";
-  hybrid.bound = 5e-5;
-  std::vector<Goal> all{second_order, gradient, hybrid};
+  std::vector<Goal> all{
+      goal(smooth, kLevenbergMarquardt, ControllerVariant::held,
+           "generator MLP 9-49-6, 2500 patterns, clean, held, Levenberg-Marquardt", "small", "3.9e-5", 4e-5),
+      goal(smooth, kBackPropagation, ControllerVariant::held,
+           "generator MLP 9-49-6, 2500 patterns, clean, held, back-propagation", "small", "4.0e-4", 4e-4),
+      goal(friction, kHybrid, ControllerVariant::fast,
+           "generator hybrid on a robot with friction, clean, fast, identified from logs alone", "-",
+           "8.1e-5", 5e-5)};
   if (is_quick)
     for (Goal& each : all) each.note = "fewer patterns and iterations than the goal is meant for";
   return all;

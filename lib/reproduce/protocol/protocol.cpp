@@ -2,6 +2,7 @@
 #include "lib/reproduce/protocol/protocol.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -48,15 +49,9 @@ void add_noise(std::vector<double>& signal, double std, Random& random) {
 }  // namespace
 
 const char* to_string(ControllerVariant controller) {
-  switch (controller) {
-    case ControllerVariant::held:
-      return "held";
-    case ControllerVariant::fast:
-      return "fast";
-    case ControllerVariant::pd:
-      return "pd";
-  }
-  return "";
+  static constexpr std::array kNames{"held", "fast", "pd"};
+  static_assert(kNames.size() == static_cast<std::size_t>(ControllerVariant::pd) + 1);
+  return kNames[static_cast<std::size_t>(controller)];
 }
 
 ControllerSpec controller_spec(ControllerVariant controller) {

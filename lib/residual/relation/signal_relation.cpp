@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -82,15 +83,9 @@ bool fits(const SignalRelation& relation, int joints) {
 }  // namespace
 
 const char* to_string(RelationKind kind) {
-  switch (kind) {
-    case RelationKind::actuator:
-      return "actuator";
-    case RelationKind::control_law:
-      return "control_law";
-    case RelationKind::tracking:
-      return "tracking";
-  }
-  return "tracking";
+  static constexpr std::array kNames{"actuator", "control_law", "tracking"};
+  static_assert(kNames.size() == static_cast<std::size_t>(RelationKind::tracking) + 1);
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 RelationKind relation_kind_from(const std::string& name, const std::string& where) {

@@ -7,7 +7,8 @@
 
 #include "lib/robot/toml/toml_table.hpp"
 
-/// Values of option files with a meaning in mechanics; the readers fail as TomlTable does.
+/// Values of option files with a meaning in mechanics. The readers fail as TomlTable does; what is written
+/// loads again as the same bits.
 namespace faultline {
 
 /// Three numbers, or `fallback` if the key is absent.
@@ -21,5 +22,14 @@ double positive(const TomlTable& table, const std::string& key, double fallback)
 /// Fails if one of the numbers under `key` is negative, or zero without `zero_allowed`.
 void check_signs(const TomlTable& table, const std::string& key, const std::vector<double>& values,
                  bool zero_allowed);
+
+/// Shortest text of a finite number.
+std::string toml_number(double value);
+/// A list of numbers.
+std::string toml_numbers(const Eigen::Ref<const Eigen::VectorXd>& values);
+/// A text in quotes.
+std::string toml_quoted(const std::string& text);
+/// [xx, yy, zz, xy, xz, yz] of a symmetric matrix.
+std::string toml_tensor(const Eigen::Matrix3d& m);
 
 }  // namespace faultline

@@ -9,7 +9,6 @@
 #include "lib/core/text.hpp"
 #include "lib/robot/robot.hpp"
 #include "lib/robot/robot_file_parts.hpp"
-#include "lib/robot/toml/toml_text.hpp"
 #include "lib/robot/toml/toml_values.hpp"
 
 namespace faultline {
