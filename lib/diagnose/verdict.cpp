@@ -15,7 +15,7 @@
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/log/quality.hpp"
 #include "lib/log/recorder/corrected_source.hpp"
-#include "lib/log/runs/judged_moment.hpp"
+#include "lib/log/time_axis.hpp"
 
 namespace faultline {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/log/log_channels.hpp"
-#include "lib/log/runs/judged_moment.hpp"
+#include "lib/log/time_axis.hpp"
 #include "lib/log/units.hpp"
 
 namespace faultline {

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <iterator>
 
-#include "lib/reproduce/classifier/classifier_results.hpp"
-#include "lib/reproduce/generator/generator_measurements.hpp"
 #include "lib/reproduce/page/reproduction.hpp"
-#include "lib/reproduce/runs/run_tables.hpp"
 
 namespace faultline {
 namespace {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/log/runs/judged_moment.hpp"
 #include "lib/log/time_axis.hpp"
 
 namespace faultline {

@@ -12,7 +12,7 @@
 
 #include "lib/core/statistics.hpp"
 #include "lib/log/log_channels.hpp"
-#include "lib/log/runs/judged_moment.hpp"
+#include "lib/log/time_axis.hpp"
 
 namespace faultline {
 namespace {

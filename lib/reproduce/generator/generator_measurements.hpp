@@ -96,9 +96,4 @@ struct GeneratorComparison {
 GeneratorMeasurements measure_generators(const GeneratorComparison& comparison,
                                          const ReproduceOptions& options, const Progress& progress);
 
-/// Section V.A of the paper: how well the fault-free motion is predicted one sample ahead. The paper's
-/// network by its own trainer and by Levenberg-Marquardt, its variants, physics and hybrid; tables
-/// generator_mse, generator_by_output, generator_friction.
-StudyResult generator_study(const ReproduceOptions& options, const Progress& progress = {});
-
 }  // namespace faultline

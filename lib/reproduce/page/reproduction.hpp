@@ -34,6 +34,24 @@ struct Figure {
   LinePlot plot;
 };
 
+/// Section V.A of the paper: how well the fault-free motion is predicted one sample ahead. The paper's
+/// network by its own trainer and by Levenberg-Marquardt, its variants, physics and hybrid; tables
+/// generator_mse, generator_by_output, generator_friction.
+StudyResult generator_study(const ReproduceOptions& options, const Progress& progress = {});
+
+/// The paper's tables 1 and 2: the training set of the classifier of single samples, its errors as the paper
+/// built it, what each departure buys, and what the true model could do at best. All three controllers.
+StudyResult classifier_study(const ReproduceOptions& options, const Progress& progress = {});
+
+/// The paper's figures 1 and 2 as runs: detection of a free-swinging joint at any time by single networks, by
+/// both with a case-based decision, by this project's own way and by a near-optimal reference, under every
+/// controller and noise reading.
+StudyResult run_study(const ReproduceOptions& options, const Progress& progress = {});
+
+/// The paper's figures 3 to 8: residual, position and velocity of joint 2, which swings freely from 4 s (MLP)
+/// or 5 s (RBFN) on, with what the networks put out. Held controller, no noise, the paper's own recipe.
+std::vector<Figure> fault_figures(const ReproduceOptions& options);
+
 /// Every table and figure of the paper, beside what it printed, and what each departure from it buys.
 struct Reproduction {
   ReproduceOptions options;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "lib/reproduce/page/reproduction.hpp"
 #include "lib/reproduce/protocol/motion_generator.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
-#include "lib/reproduce/runs/run_tables.hpp"
 #include "lib/reproduce/runs/sample_detector.hpp"
 #include "lib/residual/residuals.hpp"
 

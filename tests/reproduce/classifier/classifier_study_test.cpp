@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/reproduce/classifier/classifier_bench.hpp"
-#include "lib/reproduce/classifier/classifier_results.hpp"
+#include "lib/reproduce/page/reproduction.hpp"
 
 namespace faultline {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "lib/reproduce/page/reproduction.hpp"
 #include "lib/reproduce/runs/run_condition.hpp"
-#include "lib/reproduce/runs/run_tables.hpp"
 
 namespace faultline {
 namespace {
