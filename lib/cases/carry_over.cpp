@@ -37,11 +37,6 @@ std::vector<double> moved_features(const Case& c, const CaseBase& old, const Cas
   return moved;
 }
 
-void mark_as_old(Case& c, const CaseBase& old, const CaseBase& fresh) {
-  if (c.features_by.empty() && old.model_identity() != fresh.model_identity())
-    c.features_by = old.model_identity();
-}
-
 /// Returns `fresh` without the cases that a case added or revised by people replaces.
 CaseBase without_superseded(const CaseBase& old, const CaseBase& fresh) {
   std::set<std::int64_t> superseded;
@@ -78,7 +73,8 @@ CarriedCases carry_over(const CaseBase& old, CaseBase& fresh) {
       ++count.recomputed;
     } else {
       c.episode.features = moved_features(c, old, learned);
-      mark_as_old(c, old, learned);
+      if (c.features_by.empty() && old.model_identity() != learned.model_identity())
+        c.features_by = old.model_identity();
       if (!c.features_by.empty()) ++count.old_features;
     }
     const std::int64_t id = c.id;

@@ -139,11 +139,7 @@ Metric metric_in_tables(SqliteFile& file) {
 
 std::vector<Case> cases_in_tables(SqliteFile& file) {
   std::vector<Case> cases;
-  SqliteStatement row(
-      file,
-      "SELECT id, kind, joint, decision_kind, decision_joint, outcome, what_was_done, origin, mlp_kind, "
-      "mlp_joint, mlp_confidence, rbfn_kind, rbfn_joint, rbfn_confidence, evidence, features, log_sha256, "
-      "onset_s, features_by, log_name, robot, person, date FROM fault_case ORDER BY id");
+  SqliteStatement row(file, "SELECT * FROM fault_case ORDER BY id");  // columns as in check_case_schema()
   while (row.step()) cases.push_back(case_at(row));
   return cases;
 }

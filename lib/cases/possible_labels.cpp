@@ -27,11 +27,6 @@ bool is_compared(const CaseBase& base, const FaultLabel& label) {
                      [&](const Feature& f) { return f.name == kOfLabel + label_text(label); });
 }
 
-bool has_case_of(const CaseBase& base, FaultKind kind) {
-  return std::any_of(base.cases().begin(), base.cases().end(),
-                     [kind](const Case& c) { return c.label.kind == kind; });
-}
-
 }  // namespace
 
 int joints_of(const CaseBase& base) { return static_cast<int>(base.robot().axes.size()); }
@@ -56,7 +51,9 @@ void check_place(int joints, const FaultLabel& label, const std::string& where) 
 void check_label(const CaseBase& base, const FaultLabel& label, const std::string& where) {
   check_place(joints_of(base), label, where);
   const bool is_fault = label.kind != FaultKind::none && label.kind != FaultKind::unknown;
-  if (is_fault && !is_compared(base, label) && !has_case_of(base, label.kind))
+  const bool has_case = std::any_of(base.cases().begin(), base.cases().end(),
+                                    [&](const Case& c) { return c.label.kind == label.kind; });
+  if (is_fault && !is_compared(base, label) && !has_case)
     refuse_label(where, "\"" + label_text(label) +
                             "\" is not among the faults that the model of this case base can find, given the "
                             "meaning of the torque in this robot's logs, and no labelled log showed one");

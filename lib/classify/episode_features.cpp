@@ -24,8 +24,6 @@ constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 // weight of the size of a label with that deficit.
 constexpr double kLargestDeficit = 300.0;  // nats; a label with more is excluded anyway
 
-double feature_of_deficit(double nats) { return -elementary::log1p(std::min(nats, kLargestDeficit)); }
-
 double deficit_of_feature(double feature) { return elementary::exp(-feature) - 1.0; }
 
 double size_counts(double deficit_nats) {
@@ -133,7 +131,7 @@ std::vector<double> episode_features(const std::vector<LabelEvidence>& evidence,
   for (const LabelEvidence& e : evidence) best = std::max(best, e.log_likelihood_ratio);
   std::vector<double> features;
   for (const LabelEvidence& e : evidence)
-    features.push_back(feature_of_deficit(best - e.log_likelihood_ratio));
+    features.push_back(-elementary::log1p(std::min(best - e.log_likelihood_ratio, kLargestDeficit)));
   for (const LabelEvidence& e : evidence) {
     const double counts = size_counts(best - e.log_likelihood_ratio);
     features.push_back(counts * bounded_size(e.size[0]));

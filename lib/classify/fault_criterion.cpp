@@ -19,11 +19,6 @@ using Eigen::VectorXd;
 
 constexpr double kLeastOutput = 1e-4;  // lower bound, as linear outputs may be negative and have no logarithm
 
-void start_state(CriterionState& state, Index outputs) {
-  if (state.sum.size() == outputs) return;
-  state.sum = state.sum_start_s = state.votes = state.support = VectorXd::Zero(outputs);
-}
-
 /// Returns the capped log odds of every fault against `none`, without the influence of the class shares in
 /// training; 0 for `none` itself.
 VectorXd log_odds(const CriterionOptions& options, const OutputMeaning& meaning, const VectorXd& outputs) {
@@ -45,12 +40,8 @@ Index largest_fault(const VectorXd& values) {
 }
 
 void open_at(CriterionState& state, double onset_s, double alarm_s) {
-  SampleEpisode episode;
-  episode.onset_s = onset_s;
-  episode.alarm_s = alarm_s;
-  episode.end_s = alarm_s;
-  episode.open = true;
-  state.open = episode;
+  state.open =
+      SampleEpisode{.label = {}, .onset_s = onset_s, .alarm_s = alarm_s, .end_s = alarm_s, .open = true};
 }
 
 SampleEpisode finished(const OutputMeaning& meaning, const CriterionState& state, bool open) {
@@ -168,7 +159,8 @@ std::vector<SampleEpisode> apply_criterion(const CriterionOptions& options, cons
                                            const Eigen::Ref<const VectorXd>& time,
                                            const Eigen::Ref<const Eigen::MatrixXd>& outputs,
                                            CriterionState& state) {
-  start_state(state, outputs.rows());
+  if (state.sum.size() != outputs.rows())
+    state.sum = state.sum_start_s = state.votes = state.support = VectorXd::Zero(outputs.rows());
   std::vector<SampleEpisode> ended;
   for (Index i = 0; i < outputs.cols(); ++i) {
     if (!step(options, meaning, time[i], outputs.col(i), state)) continue;

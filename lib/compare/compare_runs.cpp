@@ -38,9 +38,6 @@ double rms_of(const std::vector<double>& values) {
   return count > 0.0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Returns the limit that a standard normal variable exceeds in magnitude with a probability below `chance`.
-double sigmas_for(double chance) { return std::sqrt(-2.0 * elementary::log(chance / 2.0)); }
-
 /// Difference of one signal at the samples of the first run.
 class OneDifference {
  public:
@@ -179,7 +176,8 @@ RunComparison compare_runs(RunSignals first, RunSignals second, AlignmentKind al
     throw Error(ErrorCode::input, second.name, "has no time in common with " + first.name);
   double samples = 0.0;
   for (const RunSignal& signal : first.signals) samples += static_cast<double>(signal.time.size());
-  all.sigmas = sigmas_for(kFalseAlarms / samples);
+  // Exceeded in magnitude by a standard normal variable with a probability below kFalseAlarms / samples.
+  all.sigmas = std::sqrt(-2.0 * elementary::log(kFalseAlarms / samples / 2.0));
   for (const RunSignal& signal : first.signals)
     if (const RunSignal* other = second.find(signal.quantity, signal.joint))
       all.signals.push_back(OneDifference(signal, *other, all).take());

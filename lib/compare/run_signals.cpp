@@ -37,12 +37,6 @@ bool has_gap(const std::vector<double>& time, std::size_t begin, std::size_t end
 
 constexpr int kLeastRows = 8;
 
-std::vector<double> from_start(const std::vector<double>& time) {
-  std::vector<double> shifted;
-  for (const double t : time) shifted.push_back(t - time.front());
-  return shifted;
-}
-
 void add(std::vector<RunSignal>& to, const char* quantity, const JointSignals& values,
          const std::vector<double>& time) {
   for (std::size_t j = 0; j < values.size(); ++j)
@@ -108,7 +102,8 @@ RunSignals run_signals(const std::string& name, const Log& log, const ResidualGe
   RunSignals run;
   run.name = name;
   run.start_s = log.time.front();
-  const std::vector<double> time = from_start(log.time);
+  std::vector<double> time = log.time;
+  for (double& t : time) t -= run.start_s;
   run.length_s = time.back();
   run.period_s = median_step(time);
   add(run.signals, "position", log.q, time);

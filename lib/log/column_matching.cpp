@@ -96,7 +96,7 @@ class Matcher {
     find_families();
     for (const Quantity quantity : kJointQuantities) {
       match_quantity(quantity);
-      if (quantity == Quantity::q) require_positions();
+      if (matching_.joints == 0) fail_missing("q1", "position of joint 1");
     }
     finish();
     return std::move(matching_);
@@ -296,10 +296,6 @@ class Matcher {
     if (chosen.fitness >= 100) return;
     const std::string sentence = rivals_sentence(names_, families_, quantity, chosen);
     if (!sentence.empty()) note("channel_ambiguous", to_string({quantity, 1}), Severity::note, sentence);
-  }
-
-  void require_positions() const {
-    if (matching_.joints == 0) fail_missing("q1", "position of joint 1");
   }
 
   void finish() {

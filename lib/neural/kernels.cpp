@@ -112,51 +112,6 @@ template <int Width>
   }
 }
 
-using TanhKernel = void (*)(double*, int);
-using MatrixKernel = void (*)(LayerNumbers, const double*, double*);
-
-struct Kernels {
-  TanhKernel tanh;
-  MatrixKernel affine;
-  MatrixKernel distance;
-};
-
-// The same functions compiled for three instruction sets. Wider vectors hold more lanes; the result of a lane
-// is the same.
-void tanh_base(double* v, int n) { tanh_body(v, n); }
-void affine_base(LayerNumbers layer, const double* in, double* out) { affine_body<2>(layer, in, out); }
-void distance_base(LayerNumbers layer, const double* in, double* out) { distance_body<2>(layer, in, out); }
-
-#if defined(__x86_64__) && defined(__GNUC__)
-[[gnu::target("avx2")]] void tanh_avx2(double* v, int n) { tanh_body(v, n); }
-[[gnu::target("avx2")]] void affine_avx2(LayerNumbers layer, const double* in, double* out) {
-  affine_body<4>(layer, in, out);
-}
-[[gnu::target("avx2")]] void distance_avx2(LayerNumbers layer, const double* in, double* out) {
-  distance_body<4>(layer, in, out);
-}
-[[gnu::target(FAULTLINE_AVX512)]] void tanh_avx512(double* v, int n) { tanh_body(v, n); }
-[[gnu::target(FAULTLINE_AVX512)]] void affine_avx512(LayerNumbers layer, const double* in, double* out) {
-  affine_body<8>(layer, in, out);
-}
-[[gnu::target(FAULTLINE_AVX512)]] void distance_avx512(LayerNumbers layer, const double* in, double* out) {
-  distance_body<8>(layer, in, out);
-}
-
-Kernels kernels_for(VectorUnit unit) {
-  if (unit == VectorUnit::avx512) return {tanh_avx512, affine_avx512, distance_avx512};
-  if (unit == VectorUnit::avx2) return {tanh_avx2, affine_avx2, distance_avx2};
-  return {tanh_base, affine_base, distance_base};
-}
-#else
-Kernels kernels_for(VectorUnit) { return {tanh_base, affine_base, distance_base}; }
-#endif
-
-template <class Second>
-LayerNumbers numbers_of(const Eigen::MatrixXd& first, const Second& second) {
-  return {first.data(), second.data(), static_cast<int>(first.rows()), static_cast<int>(first.cols())};
-}
-
 using Eigen::Index;
 
 constexpr int kBlock = 64;   // samples: two panels of them fit into the first-level cache
@@ -189,13 +144,42 @@ template <int Width>
   }
 }
 
+using TanhKernel = void (*)(double*, int);
+using MatrixKernel = void (*)(LayerNumbers, const double*, double*);
 using TileKernel = void (*)(const double*, const double*, int, double* const*);
+struct Kernels {
+  TanhKernel tanh;
+  MatrixKernel affine;
+  MatrixKernel distance;
+  TileKernel tile;
+};
+
+// The same functions compiled for three instruction sets. Wider vectors hold more lanes; the result of a lane
+// is the same.
+void tanh_base(double* v, int n) { tanh_body(v, n); }
+void affine_base(LayerNumbers layer, const double* in, double* out) { affine_body<2>(layer, in, out); }
+void distance_base(LayerNumbers layer, const double* in, double* out) { distance_body<2>(layer, in, out); }
 
 void tile_base(const double* rows, const double* columns, int samples, double* const* sums) {
   tile_body<2>(rows, columns, samples, sums);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
+[[gnu::target("avx2")]] void tanh_avx2(double* v, int n) { tanh_body(v, n); }
+[[gnu::target("avx2")]] void affine_avx2(LayerNumbers layer, const double* in, double* out) {
+  affine_body<4>(layer, in, out);
+}
+[[gnu::target("avx2")]] void distance_avx2(LayerNumbers layer, const double* in, double* out) {
+  distance_body<4>(layer, in, out);
+}
+[[gnu::target(FAULTLINE_AVX512)]] void tanh_avx512(double* v, int n) { tanh_body(v, n); }
+[[gnu::target(FAULTLINE_AVX512)]] void affine_avx512(LayerNumbers layer, const double* in, double* out) {
+  affine_body<8>(layer, in, out);
+}
+[[gnu::target(FAULTLINE_AVX512)]] void distance_avx512(LayerNumbers layer, const double* in, double* out) {
+  distance_body<8>(layer, in, out);
+}
+
 [[gnu::target("avx2")]] void tile_avx2(const double* rows, const double* columns, int samples,
                                        double* const* sums) {
   tile_body<4>(rows, columns, samples, sums);
@@ -205,12 +189,19 @@ void tile_base(const double* rows, const double* columns, int samples, double* c
   tile_body<8>(rows, columns, samples, sums);
 }
 
-TileKernel tile_for(VectorUnit unit) {
-  return unit == VectorUnit::avx512 ? tile_avx512 : unit == VectorUnit::avx2 ? tile_avx2 : tile_base;
+Kernels kernels_for(VectorUnit unit) {
+  if (unit == VectorUnit::avx512) return {tanh_avx512, affine_avx512, distance_avx512, tile_avx512};
+  if (unit == VectorUnit::avx2) return {tanh_avx2, affine_avx2, distance_avx2, tile_avx2};
+  return {tanh_base, affine_base, distance_base, tile_base};
 }
 #else
-TileKernel tile_for(VectorUnit) { return tile_base; }
+Kernels kernels_for(VectorUnit) { return {tanh_base, affine_base, distance_base, tile_base}; }
 #endif
+
+template <class Second>
+LayerNumbers numbers_of(const Eigen::MatrixXd& first, const Second& second) {
+  return {first.data(), second.data(), static_cast<int>(first.rows()), static_cast<int>(first.cols())};
+}
 
 /// The rows of a panel for one sample, aligned to cache lines.
 struct alignas(64) PanelRow {
@@ -248,7 +239,7 @@ void squared_distances_lanes(const Eigen::MatrixXd& centres, const Eigen::Matrix
 }
 
 void add_gram(const Eigen::MatrixXd& features, Eigen::MatrixXd& gram, VectorUnit unit) {
-  const TileKernel tile = tile_for(unit);
+  const TileKernel tile = kernels_for(unit).tile;
   std::vector<PanelRow> packed(features.rows() / kGramPanel * kBlock);
   for (Index first = 0; first < features.cols(); first += kBlock) {
     const int count = static_cast<int>(std::min<Index>(kBlock, features.cols() - first));

@@ -126,15 +126,12 @@ class RidgeFit {
 
   double penalty(double share) const { return std::max(share * power_.mean(), 1e-300); }
 
-  double effective_weights(double penalty) const {
-    return 1.0 + (power_.array() / (power_.array() + penalty)).sum();
-  }
-
   /// Golub, Heath and Wahba's estimate of the mean squared error on new patterns.
   double generalised_error(double penalty) const {
     const auto shrink = (power_.array() + 2.0 * penalty) / (power_.array() + penalty).square();
     const double rest = std::max(total_ - (projected_.rowwise().squaredNorm().array() * shrink).sum(), 0.0);
-    const double n = static_cast<double>(patterns_), free = n - effective_weights(penalty);
+    const double effective_weights = 1.0 + (power_.array() / (power_.array() + penalty)).sum();
+    const double n = static_cast<double>(patterns_), free = n - effective_weights;
     if (free <= 0.5) return std::numeric_limits<double>::infinity();
     return rest * n / (free * free) / outputs_;
   }

@@ -26,7 +26,7 @@ using Eigen::VectorXd;
 /// Training targets of the network for each transition, in SI units.
 MatrixXd network_targets(const ResidualGenerator& generator, const Transitions& transitions) {
   const MatrixXd change = measured_change(generator, transitions);
-  if (generator.kind == ResidualKind::mlp && generator.target == PredictedQuantity::state) {
+  if (generator.predicts_state()) {
     MatrixXd state = change;
     state.topRows(generator.joints()) += transitions.q;
     state.bottomRows(generator.joints()) += transitions.dq;

@@ -19,12 +19,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-bool has_physics(const ResidualGenerator& generator) { return generator.kind != ResidualKind::mlp; }
-
-bool predicts_state(const ResidualGenerator& generator) {
-  return generator.kind == ResidualKind::mlp && generator.target == PredictedQuantity::state;
-}
-
 using nlohmann::json;
 
 ResidualKind kind_from(const std::string& name, const std::string& where) {
@@ -129,7 +123,7 @@ MatrixXd network_outputs(const ResidualGenerator& generator, const Transitions& 
 MatrixXd base_change(const ResidualGenerator& generator, const Transitions& transitions) {
   const Index n = generator.joints();
   MatrixXd change = MatrixXd::Zero(2 * n, transitions.count());
-  if (!has_physics(generator)) return change;
+  if (generator.kind == ResidualKind::mlp) return change;
   const FastDynamics robot(generator.chain);
   for (Index i = 0; i < change.cols(); ++i) {
     const JointState start{transitions.q.col(i), transitions.dq.col(i)};
@@ -147,7 +141,7 @@ MatrixXd predicted_change(const ResidualGenerator& generator, const Transitions&
   const MatrixXd outputs = network_outputs(generator, transitions);
   // The network learned the nominal duration; a jittering clock stretches the change. A gap is NaN here.
   const Eigen::RowVectorXd stretch = transitions.duration.transpose() / generator.shape.step_s;
-  if (!predicts_state(generator)) return change + (outputs.array().rowwise() * stretch.array()).matrix();
+  if (!generator.predicts_state()) return change + (outputs.array().rowwise() * stretch.array()).matrix();
   change.topRows(n) = outputs.topRows(n) - transitions.q;
   change.bottomRows(n) = outputs.bottomRows(n) - transitions.dq;
   change.array().rowwise() *= stretch.array();

@@ -48,6 +48,7 @@ struct ResidualGenerator {
   HealthyResiduals healthy;
 
   int joints() const { return shape.joints; }
+  bool predicts_state() const { return kind == ResidualKind::mlp && target == PredictedQuantity::state; }
 };
 
 /// Inputs of the network for each transition: q (or its sine), dq, tau and, if used, the mean torque, then

@@ -57,12 +57,6 @@ std::string fact_text(const std::string& key, const KnownValue& fact) {
   return fmt::format("{} = {{value = {}, std = {}}}\n", key, toml_number(fact.value), toml_number(fact.std));
 }
 
-std::string column_text(const std::string& channel, const ColumnSpec& spec) {
-  return fmt::format("{} = {{name = {}, unit = {}, sign = {}, scale = {}, offset = {}}}\n", channel,
-                     toml_quoted(spec.name), toml_quoted(spec.unit), toml_number(spec.sign),
-                     toml_number(spec.scale), toml_number(spec.offset));
-}
-
 std::string coupling_text(const Eigen::MatrixXd& coupling) {
   std::string text = "coupling = [";
   for (int i = 0; i < coupling.rows(); ++i)
@@ -86,7 +80,10 @@ std::string log_text(const LogMeaning& log) {
   text += recording_text(log.recording);
   if (log.coupling.size() > 0) text += coupling_text(log.coupling);
   if (!log.columns.empty()) text += "\n[log.columns]\n";
-  for (const auto& [channel, spec] : log.columns) text += column_text(channel, spec);
+  for (const auto& [channel, spec] : log.columns)
+    text += fmt::format("{} = {{name = {}, unit = {}, sign = {}, scale = {}, offset = {}}}\n", channel,
+                        toml_quoted(spec.name), toml_quoted(spec.unit), toml_number(spec.sign),
+                        toml_number(spec.scale), toml_number(spec.offset));
   return text;
 }
 

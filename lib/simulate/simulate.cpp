@@ -49,12 +49,6 @@ void check_times(const SimulationSpec& spec) {
   control_periods_per_sample(spec);
 }
 
-void check_noise(int joints, const NoiseSpec& noise) {
-  check_not_negative(joints, noise.q, "noise.q");
-  check_not_negative(joints, noise.dq, "noise.dq");
-  check_not_negative(joints, noise.q_resolution, "noise.q_resolution");
-}
-
 void check_drives(int joints, const DriveSpec& drives) {
   check_count(joints, drives.gain, "drives.gain");
   check_count(joints, drives.offset, "drives.offset");
@@ -68,7 +62,9 @@ void check_drives(int joints, const DriveSpec& drives) {
 void check_numbers(const Robot& robot, const SimulationSpec& spec) {
   const int joints = robot.joints();
   check_times(spec);
-  check_noise(joints, spec.noise);
+  check_not_negative(joints, spec.noise.q, "noise.q");
+  check_not_negative(joints, spec.noise.dq, "noise.dq");
+  check_not_negative(joints, spec.noise.q_resolution, "noise.q_resolution");
   check_positive(joints, spec.torque_limit, "limits.torque");
   check_drives(joints, spec.drives);
   check_positive(joints, spec.overspeed, "limits.overspeed");

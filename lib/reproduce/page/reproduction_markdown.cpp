@@ -56,10 +56,6 @@ std::string goals_text(const std::vector<Goal>& goals) {
   return text + (notes.empty() ? "" : "\n" + notes) + "\n";
 }
 
-std::string picture_text(const Figure& figure) {
-  return fmt::format("![{}]({}.svg)\n\n{}\n\n", figure.plot.title, figure.id, figure.caption);
-}
-
 std::string how_made(const ReproduceOptions& options) {
   return fmt::format(
       "Made by `faultline reproduce{}{}{}` of faultline {}. Figures are means over {} ± the standard "
@@ -171,7 +167,8 @@ std::string reproduction_markdown(const Reproduction& reproduction) {
   for (const ResultTable& table : reproduction.tables)
     if (!is_trade_off(table)) text += table_text(table);
   text += "## Figures\n\n";
-  for (const Figure& figure : reproduction.figures) text += picture_text(figure);
+  for (const Figure& figure : reproduction.figures)
+    text += fmt::format("![{}]({}.svg)\n\n{}\n\n", figure.plot.title, figure.id, figure.caption);
   return text + paper_errata();
 }
 
