@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "apps/inspection/inspection.hpp"
-#include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/columns/unit_fit.hpp"

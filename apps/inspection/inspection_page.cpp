@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "apps/inspection/inspection.hpp"
-#include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/report/html/elements.hpp"

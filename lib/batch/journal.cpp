@@ -12,8 +12,8 @@
 #include <sstream>
 
 #include "lib/core/atomic_file.hpp"
+#include "lib/core/files/inner_file.hpp"
 #include "lib/core/files/output_place.hpp"
-#include "lib/core/files/plain_name.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/core/json/json_fields.hpp"
 

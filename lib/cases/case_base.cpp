@@ -7,7 +7,7 @@
 
 #include "lib/cases/possible_labels.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/files/plain_name.hpp"
+#include "lib/core/files/inner_file.hpp"
 #include "lib/core/text.hpp"
 
 namespace faultline {

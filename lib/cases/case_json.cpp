@@ -7,7 +7,7 @@
 
 #include "lib/cases/case_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/files/plain_name.hpp"
+#include "lib/core/files/inner_file.hpp"
 #include "lib/core/json/json_fields.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/fault/label_fields.hpp"

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <sstream>
+#include <string_view>
 
 namespace faultline {
 namespace {
@@ -70,6 +71,9 @@ std::size_t character_length(std::string_view text, std::size_t i) {
 /// In the order of Paint.
 constexpr std::array kCodes{"1", "2", "31", "33", "32", "1;31", "1;32"};
 static_assert(kCodes.size() == static_cast<std::size_t>(Paint::bold_green) + 1);
+
+constexpr std::string_view kMarks = "&<>\"'\n\t";
+constexpr std::array kEntities{"&amp;", "&lt;", "&gt;", "&quot;", "&apos;", "&#10;", "&#9;"};  // of kMarks
 
 }  // namespace
 
@@ -149,6 +153,20 @@ std::string valid_utf8(std::string_view text) {
 std::string painted(std::string_view text, Paint paint, bool color) {
   return color ? fmt::format("\x1b[{}m{}\x1b[0m", kCodes[static_cast<std::size_t>(paint)], text)
                : std::string(text);
+}
+
+std::string escaped_markup(std::string_view text) {
+  const std::string valid = valid_utf8(text);
+  std::string escaped;
+  for (std::size_t i = 0; i < valid.size();) {
+    const std::size_t command = command_length(valid, i);
+    if (const std::size_t mark = kMarks.find(valid[i]); mark != std::string_view::npos)
+      escaped += kEntities[mark];
+    else
+      escaped += command > 0 ? '?' : valid[i];
+    i += std::max<std::size_t>(command, 1);
+  }
+  return escaped;
 }
 
 }  // namespace faultline

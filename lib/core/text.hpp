@@ -45,4 +45,8 @@ enum class Paint { bold, dim, red, yellow, green, bold_red, bold_green };
 /// Returns `text` between terminal colour codes if `color`, else unchanged.
 std::string painted(std::string_view text, Paint paint, bool color);
 
+/// Returns text that is safe inside XML 1.0 and HTML, also in quoted attributes: valid UTF-8, the five marks
+/// escaped, control characters that XML cannot contain replaced by "?".
+std::string escaped_markup(std::string_view text);
+
 }  // namespace faultline

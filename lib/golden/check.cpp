@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "lib/core/error.hpp"
-#include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 

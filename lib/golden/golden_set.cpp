@@ -9,7 +9,7 @@
 #include <set>
 
 #include "lib/core/error.hpp"
-#include "lib/core/files/plain_name.hpp"
+#include "lib/core/files/inner_file.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/toml/toml_table.hpp"
 

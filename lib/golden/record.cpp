@@ -10,7 +10,6 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/inner_file.hpp"
-#include "lib/core/files/plain_name.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/core/text.hpp"
 #include "lib/golden/check.hpp"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
-#include "lib/core/files/plain_name.hpp"
+#include "lib/core/files/inner_file.hpp"
 #include "lib/core/json_values.hpp"
 
 namespace faultline {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/text.hpp"

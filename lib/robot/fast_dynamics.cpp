@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/robot/extra_torque.hpp"
+#include "lib/robot/dynamics.hpp"
 
 namespace faultline {
 namespace {

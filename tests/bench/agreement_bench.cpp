@@ -9,8 +9,8 @@
 #include "lib/reproduce/protocol/motion_generator.hpp"
 #include "lib/reproduce/runs/alarm_score.hpp"
 #include "lib/reproduce/runs/criterion_sweep.hpp"
+#include "lib/reproduce/runs/detectors.hpp"
 #include "lib/reproduce/runs/run_condition.hpp"
-#include "lib/reproduce/runs/sample_detector.hpp"
 
 namespace {
 

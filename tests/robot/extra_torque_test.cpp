@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lib/robot/extra_torque.hpp"
 
 #include <gtest/gtest.h>
 

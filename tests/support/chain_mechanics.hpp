@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 
 #include "lib/robot/dynamics.hpp"
-#include "lib/robot/extra_torque.hpp"
 
 /// Quantities of a chain that only tests compare with: motion under torques, momentum, energies, the tip.
 namespace faultline {

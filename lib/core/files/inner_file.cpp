@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -12,6 +13,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
@@ -106,6 +108,8 @@ std::string all_of(const Descriptor& file, const std::string& path, std::size_t 
   }
 }
 
+bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
+
 }  // namespace
 
 bool has_inner_file(const std::string& folder, const std::string& path) {
@@ -135,5 +139,21 @@ void write_inner_file(const std::string& folder, const std::string& path, std::s
   prepare_inner_file(folder, path);
   write_file((fs::path(folder) / path).string(), bytes);
 }
+
+bool is_plain_name(std::string_view name) {
+  return !name.empty() && name != "." && name != ".." && name.find('/') == std::string_view::npos &&
+         std::none_of(name.begin(), name.end(), is_control);
+}
+
+bool is_plain_path(std::string_view path) {
+  for (;;) {
+    const std::size_t end = path.find('/');
+    if (!is_plain_name(path.substr(0, end))) return false;
+    if (end == std::string_view::npos) return true;
+    path.remove_prefix(end + 1);
+  }
+}
+
+bool is_plain_log_name(std::string_view name) { return is_plain_path(printable(name)); }
 
 }  // namespace faultline

@@ -29,4 +29,15 @@ void prepare_inner_file(const std::string& folder, const std::string& path);
 /// Calls write_file() after prepare_inner_file().
 void write_inner_file(const std::string& folder, const std::string& path, std::string_view bytes);
 
+/// Whether it can only be a name in a folder: neither empty nor "." nor "..", without '/' and control
+/// characters.
+bool is_plain_name(std::string_view name);
+
+/// Whether it leads to a place below the folder in which it starts: plain names with '/' between them.
+bool is_plain_path(std::string_view path);
+
+/// Whether the name of a log, which is only shown, is_plain_path(); a line break or tab is allowed, as
+/// printable() replaces them.
+bool is_plain_log_name(std::string_view name);
+
 }  // namespace faultline

@@ -6,7 +6,6 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/robot/dynamics.hpp"
-#include "lib/robot/extra_torque.hpp"
 
 namespace faultline {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "lib/core/markup.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {

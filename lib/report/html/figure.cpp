@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/report/html/elements.hpp"
 #include "lib/report/html/page_figures.hpp"
 #include "lib/report/plot/line_plot.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
 #include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/finding_words.hpp"

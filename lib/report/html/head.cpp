@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/core/hash.hpp"
-#include "lib/core/markup.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {

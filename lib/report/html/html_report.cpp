@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/diagnose/curves/run_curves.hpp"

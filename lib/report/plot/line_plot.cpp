@@ -8,7 +8,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "lib/core/markup.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "lib/classify/sample_classifier.hpp"
-#include "lib/reproduce/classifier/fault_trajectories.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
 #include "lib/residual/residual_generator.hpp"
 

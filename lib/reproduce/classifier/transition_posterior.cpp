@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/reproduce/classifier/fault_trajectories.hpp"
+#include "lib/reproduce/protocol/protocol.hpp"
 #include "lib/robot/runge_kutta.hpp"
 
 namespace faultline {

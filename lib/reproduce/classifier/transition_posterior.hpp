@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "lib/reproduce/classifier/fault_trajectories.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
 #include "lib/residual/physics_step.hpp"
 #include "lib/simulate/controller.hpp"

@@ -9,7 +9,7 @@
 #include "lib/classify/sample_classifier.hpp"
 #include "lib/reproduce/runs/alarm_score.hpp"
 #include "lib/reproduce/runs/criterion_sweep.hpp"
-#include "lib/reproduce/runs/sample_detector.hpp"
+#include "lib/reproduce/runs/detectors.hpp"
 
 namespace faultline {
 

@@ -4,7 +4,7 @@
 #include "lib/reproduce/page/reproduction.hpp"
 #include "lib/reproduce/protocol/motion_generator.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
-#include "lib/reproduce/runs/sample_detector.hpp"
+#include "lib/reproduce/runs/detectors.hpp"
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {

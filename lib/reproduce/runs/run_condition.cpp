@@ -7,10 +7,9 @@
 #include "lib/learn/learn.hpp"
 #include "lib/reproduce/protocol/motion_generator.hpp"
 #include "lib/reproduce/runs/criterion_sweep.hpp"
+#include "lib/reproduce/runs/detectors.hpp"
 #include "lib/reproduce/runs/dual_decision.hpp"
 #include "lib/reproduce/runs/free_joint_filter.hpp"
-#include "lib/reproduce/runs/product_detector.hpp"
-#include "lib/reproduce/runs/sample_detector.hpp"
 
 namespace faultline {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/core/files/plain_name.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "lib/core/files/inner_file.hpp"
 
 namespace faultline {
 namespace {

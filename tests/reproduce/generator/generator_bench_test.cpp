@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/generator/generator_bench.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "lib/reproduce/generator/generator_measurements.hpp"
 
 namespace faultline {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "lib/reproduce/generator/generator_bench.hpp"
+#include "lib/reproduce/generator/generator_measurements.hpp"
 
 namespace faultline {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/reproduce/runs/product_detector.hpp"
+#include "lib/reproduce/runs/detectors.hpp"
 
 namespace faultline {
 namespace {

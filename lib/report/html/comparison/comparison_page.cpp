@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "lib/compare/compare_runs.hpp"
-#include "lib/core/markup.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/core/version.hpp"

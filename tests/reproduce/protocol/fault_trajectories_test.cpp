@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/reproduce/classifier/fault_trajectories.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "lib/reproduce/protocol/protocol.hpp"
 
 namespace faultline {
 namespace {
