@@ -73,17 +73,14 @@ std::vector<ColumnFamily> column_families(const std::vector<std::string>& names,
                                           const std::function<bool(int)>& is_free) {
   std::vector<ColumnFamily> families;
   std::map<std::string, std::size_t> index;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!is_free(static_cast<int>(i))) continue;
-    const ParsedName reading = parse_name(names[i]);
-    if (!reading.quantity) continue;
+  for (const auto& [column, reading] : read_columns(names, is_free)) {
     const auto [at, fresh] = index.emplace(reading.stem, families.size());
     if (fresh)
       families.push_back(
           {*reading.quantity, reading.fitness, reading.as_torque, {}, reading.number.has_value()});
     ColumnFamily& family = families[at->second];
     family.fitness = std::max(family.fitness, reading.fitness);
-    family.column_of.emplace(reading.number.value_or(1), static_cast<int>(i));
+    family.column_of.emplace(reading.number.value_or(1), column);
   }
   return families;
 }

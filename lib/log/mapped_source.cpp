@@ -23,8 +23,7 @@ constexpr int kHeldRows = 10;  // at least
 
 /// Fills gaps with the latest value. A joint's signal without values for longer than a moment has ended: its
 /// last value is no longer a measurement.
-void hold(std::vector<double>& values, const std::vector<double>& time, bool is_measured,
-          SparseRows::Held& held) {
+void hold(std::vector<double>& values, const std::vector<double>& time, bool is_measured, HeldValue& held) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isnan(values[i])) {
       held = {values[i], time[i], 0};
@@ -44,7 +43,9 @@ std::vector<int> rows_with_position(const Log& log) {
 
 }  // namespace
 
-void SparseRows::gather(Log& segment, Issues& issues) {
+/// Fills each missing value of a segment whose rows hold only some of the signals with the latest one, a
+/// joint signal for a moment only (judged_moment_s()), and removes the rows without any position.
+void MappedSource::gather_sparse_rows(Log& segment) {
   const std::vector<int> rows = rows_with_position(segment);
   const auto lost = static_cast<std::int64_t>(segment.rows()) - std::ssize(rows);
   std::vector<std::vector<double>*> channels;
@@ -58,10 +59,11 @@ void SparseRows::gather(Log& segment, Issues& issues) {
   }
   keep_rows(segment.time, rows);
   if (lost > 0)
-    issues.add({"row_of_other_signals", "", Severity::note,
-                "rows without a position were left out; the values of other signals in them hold until the "
-                "next value, or for a moment",
-                0, std::numeric_limits<double>::quiet_NaN(), lost, lost});
+    cleaning_issues_.add(
+        {"row_of_other_signals", "", Severity::note,
+         "rows without a position were left out; the values of other signals in them hold until the "
+         "next value, or for a moment",
+         0, std::numeric_limits<double>::quiet_NaN(), lost, lost});
 }
 
 MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSourceOptions& options)
@@ -87,7 +89,7 @@ void MappedSource::rewind() {
   reader_->rewind();
   order_ = RowOrder(options_.run);
   identity_ = reader_->identity();
-  sparse_rows_ = {};
+  held_.clear();
   rows_kept_ = 0;
   at_end_ = false;
   cleaning_issues_ = {};
@@ -108,7 +110,7 @@ bool MappedSource::next(Log& segment) {
         refuse_no_rows();
         return false;
       }
-    if (reader_->sparse()) sparse_rows_.gather(segment, cleaning_issues_);
+    if (reader_->sparse()) gather_sparse_rows(segment);
     segment.first_row = rows_kept_;
     rows_kept_ += segment.rows();
     if (segment.rows() > 0) return true;
@@ -147,10 +149,6 @@ bool MappedSource::fill() {
   return true;
 }
 
-std::vector<double>& MappedSource::channel_of(Log& log, Channel channel) const {
-  return channel.quantity == Quantity::time ? log.time : signals_of(log, channel.quantity)[channel.joint - 1];
-}
-
 void MappedSource::take_block(Log& segment) {
   for (const Quantity quantity : kJointQuantities) {
     const bool present =
@@ -158,7 +156,10 @@ void MappedSource::take_block(Log& segment) {
                     [&](const ChannelSource& source) { return source.channel.quantity == quantity; });
     signals_of(segment, quantity).resize(present ? matching_.joints : 0);
   }
-  for (const ChannelSource& source : matching_.channels) take(source, channel_of(segment, source.channel));
+  for (const ChannelSource& source : matching_.channels) {
+    const auto [quantity, joint] = source.channel;
+    take(source, quantity == Quantity::time ? segment.time : signals_of(segment, quantity)[joint - 1]);
+  }
   for_each_joint_channel(segment, [&](std::vector<double>& values, Channel channel) {
     const bool found = std::any_of(matching_.channels.begin(), matching_.channels.end(),
                                    [&](const ChannelSource& source) { return source.channel == channel; });

@@ -14,23 +14,11 @@
 
 namespace faultline {
 
-/// Makes a log of a table in which each row holds only some of the signals, as written by programs that merge
-/// signals of different rates.
-class SparseRows {
- public:
-  /// The latest value of a signal.
-  struct Held {
-    double value = std::numeric_limits<double>::quiet_NaN();
-    double since_s = -std::numeric_limits<double>::infinity();
-    int rows = 0;  ///< rows without a value since then
-  };
-
-  /// Fills each missing value with the latest one, a joint signal for a moment only (judged_moment_s()), and
-  /// removes the rows without any position. Segments follow each other.
-  void gather(Log& segment, Issues& issues);
-
- private:
-  std::vector<Held> held_;  ///< by channel
+/// The latest value of a signal in a table in which each row holds only some of the signals.
+struct HeldValue {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double since_s = -std::numeric_limits<double>::infinity();
+  int rows = 0;  ///< rows without a value since then
 };
 
 struct MappedSourceOptions {
@@ -59,7 +47,7 @@ class MappedSource : public LogSource {
   void take_block(Log& segment);
   void find_epoch();
   void take(const ChannelSource& source, std::vector<double>& values);
-  std::vector<double>& channel_of(Log& log, Channel channel) const;
+  void gather_sparse_rows(Log& segment);
   void gather_issues() const;
   void refuse_no_rows() const;
 
@@ -70,8 +58,8 @@ class MappedSource : public LogSource {
   RawBlock block_;
   RowOrder order_;
   LogIdentity identity_;
-  SparseRows sparse_rows_;
-  Log rows_;  ///< rows of a block
+  std::vector<HeldValue> held_;  ///< by channel, if the rows are sparse
+  Log rows_;                     ///< rows of a block
   std::int64_t rows_kept_ = 0;
   bool at_end_ = false;
   bool epoch_found_ = false;  ///< true once find_epoch() has run

@@ -51,7 +51,8 @@ class RawReader {
   virtual const Issues& issues() const = 0;
   /// Whether the columns are canonical channels in SI already, so that no column map applies.
   virtual bool canonical() const { return false; }
-  /// Whether each row holds only some of the signals, see SparseRows.
+  /// Whether each row holds only some of the signals, as written by programs that merge signals of different
+  /// rates; see HeldValue.
   virtual bool sparse() const { return false; }
   /// Returns the share of the file read so far, 0 to 1.
   virtual double share_read() const = 0;

@@ -45,11 +45,7 @@ void sync_folder(const std::string& folder) {
   ::close(descriptor);
 }
 
-bool sync_file(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL; }
-
 constexpr std::time_t kLongUntouched_s = 24 * 3600;  // a running program writes more often
-
-bool is_untouched(const struct stat& facts) { return std::time(nullptr) - facts.st_mtime > kLongUntouched_s; }
 
 /// Whether the program that created the open file, which has no lock, cannot be running.
 bool is_abandoned(const fs::path& path, const struct stat& facts) {
@@ -59,7 +55,7 @@ bool is_abandoned(const fs::path& path, const struct stat& facts) {
     case TemporaryKind::this_machine:
       return true;
     case TemporaryKind::other_machine:
-      return is_untouched(facts);
+      return std::time(nullptr) - facts.st_mtime > kLongUntouched_s;
   }
   return false;
 }
@@ -185,7 +181,7 @@ void TemporaryFile::fail(const char* doing) {
 }
 
 void TemporaryFile::commit() {
-  if (!sync_file(descriptor_)) fail("written");
+  if (::fsync(descriptor_) != 0 && errno != EINVAL) fail("written");
   if (std::rename(path_.c_str(), place_.c_str()) != 0) fail("renamed into place");
   path_.clear();
   on_signal_.reset();
