@@ -16,7 +16,7 @@
 #include "lib/identify/parameter_space.hpp"
 #include "lib/identify/weak_form/weak_form.hpp"
 #include "lib/robot/dynamics.hpp"
-#include "lib/robot/toml/toml_text.hpp"
+#include "lib/robot/toml/toml_values.hpp"
 #include "lib/simulate/motion.hpp"
 
 namespace faultline {
