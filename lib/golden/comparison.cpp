@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "lib/core/number_text.hpp"
@@ -17,39 +18,26 @@ namespace {
 std::string brief_value(double number) { return digits_text(number, 6); }
 
 void compare_words(const std::string& channel, const std::string& expected, const std::string& actual,
-                   Comparison& comparison) {
-  const bool differs = expected != actual;
-  if (differs) comparison.differences.push_back({channel, kNoNumber, expected, actual, kNoNumber});
+                   Comparison& comparison, bool may_differ = false, double allowed = kNoNumber) {
+  const bool differs = expected != actual && !may_differ;
+  if (differs) comparison.differences.push_back({channel, kNoNumber, expected, actual, allowed});
   comparison.lines.push_back({channel + " " + expected, channel + " " + actual, differs});
 }
 
-void compare_rows(std::int64_t expected, std::int64_t actual, bool may_differ, Comparison& comparison) {
-  const bool differs = expected != actual && !may_differ;
-  if (differs)
-    comparison.differences.push_back(
-        {"rows", kNoNumber, fmt::format("{}", expected), fmt::format("{}", actual), 0.0});
-  comparison.lines.push_back({fmt::format("rows {}", expected), fmt::format("rows {}", actual), differs});
+/// Adds a difference when `got` is out of tolerance; returns whether it is.
+bool compare_number(const std::string& channel, const std::string& family, double wanted, double got,
+                    double time, const ToleranceChain& tolerances, Comparison& comparison) {
+  const Tolerance tolerance = tolerance_of(tolerances, channel, family);
+  if (tolerance.agree(wanted, got)) return false;
+  comparison.differences.push_back(
+      {channel, time, brief_value(wanted), brief_value(got), tolerance.allowed(wanted)});
+  return true;
 }
 
 std::string line_of(const JointResidual& r) {
   return fmt::format("residual of joint {}: velocity_rms {}, velocity_peak {} at {} s, position_rms {}",
                      r.joint, brief_value(r.velocity_rms), brief_value(r.velocity_peak),
                      brief_value(r.velocity_peak_s), brief_value(r.position_rms));
-}
-
-bool compare_residual(const JointResidual& expected, const JointResidual& actual,
-                      const ToleranceChain& tolerances, Comparison& comparison) {
-  bool differs = false;
-  const auto number = [&](const char* family, double wanted, double got, double time) {
-    differs |= compare_number(fmt::format("{}_{}", family, expected.joint), family, wanted, got, time,
-                              tolerances, comparison);
-  };
-  number("velocity_rms", expected.velocity_rms, actual.velocity_rms, NAN);
-  number("velocity_peak", expected.velocity_peak, actual.velocity_peak, expected.velocity_peak_s);
-  number("peak_s", expected.velocity_peak_s, actual.velocity_peak_s,
-         std::fmin(expected.velocity_peak_s, actual.velocity_peak_s));
-  number("position_rms", expected.position_rms, actual.position_rms, NAN);
-  return differs;
 }
 
 void compare_residuals(const Observation& expected, const Observation& actual,
@@ -59,8 +47,18 @@ void compare_residuals(const Observation& expected, const Observation& actual,
     compare_words("joints", fmt::format("{}", expected.residuals.size()),
                   fmt::format("{}", actual.residuals.size()), comparison);
   for (std::size_t j = 0; j < common; ++j) {
-    const bool differs = compare_residual(expected.residuals[j], actual.residuals[j], tolerances, comparison);
-    comparison.lines.push_back({line_of(expected.residuals[j]), line_of(actual.residuals[j]), differs});
+    const JointResidual &wanted = expected.residuals[j], &got = actual.residuals[j];
+    bool differs = false;
+    const auto number = [&](const char* family, double one, double other, double time) {
+      differs |= compare_number(fmt::format("{}_{}", family, wanted.joint), family, one, other, time,
+                                tolerances, comparison);
+    };
+    number("velocity_rms", wanted.velocity_rms, got.velocity_rms, NAN);
+    number("velocity_peak", wanted.velocity_peak, got.velocity_peak, wanted.velocity_peak_s);
+    number("peak_s", wanted.velocity_peak_s, got.velocity_peak_s,
+           std::fmin(wanted.velocity_peak_s, got.velocity_peak_s));
+    number("position_rms", wanted.position_rms, got.position_rms, NAN);
+    comparison.lines.push_back({line_of(wanted), line_of(got), differs});
   }
 }
 
@@ -77,45 +75,21 @@ std::vector<std::pair<int, int>> common_points(const Trace& a, const Trace& b) {
   return pairs;
 }
 
-struct ChannelCheck {
-  int first = -1;  ///< of the common points
-  int count = 0;
-};
-
-ChannelCheck check(const std::vector<double>& expected, const std::vector<double>& actual,
-                   const std::vector<std::pair<int, int>>& points, const Tolerance& tolerance) {
-  ChannelCheck found;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (tolerance.agree(expected[points[k].first], actual[points[k].second])) continue;
-    if (found.count++ == 0) found.first = static_cast<int>(k);
-  }
-  return found;
-}
-
-/// The first point, by time, that only one trace has.
-struct LonePoint {
-  double time_s = std::numeric_limits<double>::infinity();
-  bool is_expected = false;
-};
-
-LonePoint first_lone_point(const Trace& expected, const Trace& actual,
-                           const std::vector<std::pair<int, int>>& points) {
-  std::size_t k = 0;
-  while (k < points.size() && points[k] == std::pair(static_cast<int>(k), static_cast<int>(k))) ++k;
-  LonePoint lone;
-  if (k < expected.time.size()) lone = {expected.time[k], true};
-  if (k < actual.time.size() && actual.time[k] < lone.time_s) lone = {actual.time[k], false};
-  return lone;
-}
-
+/// The first point, by time, that only one trace has is a difference.
 void compare_times(const Trace& expected, const Trace& actual, const std::vector<std::pair<int, int>>& points,
                    Comparison& comparison) {
   if (points.size() == expected.time.size() && points.size() == actual.time.size()) return;
-  const LonePoint lone = first_lone_point(expected, actual, points);
-  const std::string there = fmt::format("a sample at {} s", lone.time_s);
-  const std::string expected_text = lone.is_expected ? there : "",
-                    actual_text = lone.is_expected ? "" : there;
-  comparison.differences.push_back({"t", lone.time_s, expected_text, actual_text, kNoNumber});
+  std::size_t k = 0;
+  while (k < points.size() && points[k] == std::pair(static_cast<int>(k), static_cast<int>(k))) ++k;
+  double time_s = std::numeric_limits<double>::infinity();
+  const bool is_in_expected = k < expected.time.size();
+  if (is_in_expected) time_s = expected.time[k];
+  const bool is_in_actual = k < actual.time.size() && actual.time[k] < time_s;
+  if (is_in_actual) time_s = actual.time[k];
+  const std::string there = fmt::format("a sample at {} s", time_s);
+  const bool is_expected = is_in_expected && !is_in_actual;
+  const std::string expected_text = is_expected ? there : "", actual_text = is_expected ? "" : there;
+  comparison.differences.push_back({"t", time_s, expected_text, actual_text, kNoNumber});
   comparison.lines.push_back({expected_text, actual_text, true});
 }
 
@@ -135,9 +109,12 @@ void compare_traces(const Trace& expected, const Trace& actual, const ToleranceC
     }
     const auto& there = actual.values[same - actual.channels.begin()];
     const Tolerance tolerance = tolerance_of(tolerances, channel, tolerance_family(channel));
-    const ChannelCheck found = check(expected.values[c], there, points, tolerance);
-    if (found.count == 0) continue;
-    const auto [i, j] = points[found.first];
+    std::vector<std::pair<int, int>> differing;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(differing), [&](const auto& point) {
+      return !tolerance.agree(expected.values[c][point.first], there[point.second]);
+    });
+    if (differing.empty()) continue;
+    const auto [i, j] = differing.front();
     const double wanted = expected.values[c][i], got = there[j], time = expected.time[i];
     comparison.differences.push_back(
         {channel, time, brief_value(wanted), brief_value(got), tolerance.allowed(wanted)});
@@ -145,7 +122,7 @@ void compare_traces(const Trace& expected, const Trace& actual, const ToleranceC
       return fmt::format("{} predicted {} at {} s", channel, brief_value(number), expected.time[i]);
     };
     comparison.lines.push_back(
-        {line(wanted), fmt::format("{} ({} of {} points differ)", line(got), found.count, points.size()),
+        {line(wanted), fmt::format("{} ({} of {} points differ)", line(got), differing.size(), points.size()),
          true});
   }
 }
@@ -155,41 +132,33 @@ std::string value_line(const ParameterValue& p) {
   return fmt::format("{} {} {}", p.name, brief_value(p.value), p.unit);
 }
 
-std::string line_of(const ParameterValue& p) {
+std::string estimate_line(const ParameterValue& p) {
   return value_line(p) + (std::isnan(p.std) ? " (not identifiable)" : ", std " + brief_value(p.std));
 }
 
-void compare_missing(const ParameterValue& expected, Comparison& comparison) {
-  comparison.differences.push_back({expected.name, kNoNumber, brief_value(expected.value), "", kNoNumber});
-  comparison.lines.push_back({line_of(expected), "", true});
-}
-
-void compare_parameter(const ParameterValue& expected, const ParameterValue* actual,
-                       const ToleranceChain& tolerances, Comparison& comparison) {
-  if (!actual) return compare_missing(expected, comparison);
-  bool differs =
-      compare_number(expected.name, "parameter", expected.value, actual->value, NAN, tolerances, comparison);
-  differs |= compare_number(expected.name + "_std", "parameter_std", expected.std, actual->std, NAN,
-                            tolerances, comparison);
-  comparison.lines.push_back({line_of(expected), line_of(*actual), differs});
-}
-
-void compare_value(const ParameterValue& expected, const ParameterValue* actual,
-                   const ToleranceChain& tolerances, Comparison& comparison) {
-  if (!actual) return compare_missing(expected, comparison);
-  const std::string family = expected.name.substr(0, expected.name.find('_'));  // of "threshold_locked_2"
-  const bool differs =
-      compare_number(expected.name, family, expected.value, actual->value, NAN, tolerances, comparison);
-  comparison.lines.push_back({value_line(expected), value_line(*actual), differs});
-}
-
-/// What was not expected.
-void compare_new(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
-                 Comparison& comparison) {
+/// Compares values by their names. `identified` ones have a standard deviation, or are not identifiable.
+void compare_values(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
+                    bool identified, const ToleranceChain& tolerances, Comparison& comparison) {
+  for (const ParameterValue& p : expected) {
+    const ParameterValue* const there = find_value(actual, p.name);
+    if (!there) {
+      comparison.differences.push_back({p.name, kNoNumber, brief_value(p.value), "", kNoNumber});
+      comparison.lines.push_back({estimate_line(p), "", true});
+      continue;
+    }
+    const auto line = identified ? estimate_line : value_line;
+    const std::string family =
+        identified ? "parameter" : p.name.substr(0, p.name.find('_'));  // of "threshold_locked_2"
+    bool differs = compare_number(p.name, family, p.value, there->value, NAN, tolerances, comparison);
+    if (identified)
+      differs |=
+          compare_number(p.name + "_std", "parameter_std", p.std, there->std, NAN, tolerances, comparison);
+    comparison.lines.push_back({line(p), line(*there), differs});
+  }
   for (const ParameterValue& p : actual) {
     if (find_value(expected, p.name)) continue;
     comparison.differences.push_back({p.name, kNoNumber, "", brief_value(p.value), kNoNumber});
-    comparison.lines.push_back({"", line_of(p), true});
+    comparison.lines.push_back({"", estimate_line(p), true});
   }
 }
 
@@ -231,10 +200,11 @@ int nearest(const ObservedEvent& wanted, const std::vector<ObservedEvent>& event
   return best;
 }
 
-/// What is not within its tolerance in one event: times and confidence, then the reasons.
-std::vector<Difference> compare_pair(const ObservedEvent& expected, const ObservedEvent& actual,
-                                     const ToleranceChain& tolerances) {
-  Comparison found;
+/// Adds what is not within its tolerance in one event: times and confidence, then the reasons. Returns
+/// whether anything is.
+bool compare_pair(const ObservedEvent& expected, const ObservedEvent& actual,
+                  const ToleranceChain& tolerances, Comparison& found) {
+  const std::size_t before = found.differences.size();
   const auto number = [&](const std::string& channel, double wanted, double got, double time) {
     compare_number(channel, channel, wanted, got, time, tolerances, found);
   };
@@ -258,19 +228,10 @@ std::vector<Difference> compare_pair(const ObservedEvent& expected, const Observ
   opinion("mlp", expected.opinions.mlp, actual.opinions.mlp);
   opinion("rbfn", expected.opinions.rbfn, actual.opinions.rbfn);
   words("could_also_be", names_of(expected.could_also_be), names_of(actual.could_also_be));
-  return std::move(found.differences);
+  return found.differences.size() > before;
 }
 
 }  // namespace
-
-bool compare_number(const std::string& channel, const std::string& family, double wanted, double got,
-                    double time, const ToleranceChain& tolerances, Comparison& comparison) {
-  const Tolerance tolerance = tolerance_of(tolerances, channel, family);
-  if (tolerance.agree(wanted, got)) return false;
-  comparison.differences.push_back(
-      {channel, time, brief_value(wanted), brief_value(got), tolerance.allowed(wanted)});
-  return true;
-}
 
 Comparison compare(const Observation& expected, const Observation& actual, const ToleranceChain& tolerances) {
   Comparison comparison;
@@ -279,7 +240,8 @@ Comparison compare(const Observation& expected, const Observation& actual, const
     if (!comparison.same()) comparison.lines.back().actual += ": " + actual.reason;
     return comparison;
   }
-  compare_rows(expected.rows, actual.rows, length_may_differ(tolerances), comparison);
+  compare_words("rows", std::to_string(expected.rows), std::to_string(actual.rows), comparison,
+                length_may_differ(tolerances), 0.0);
   compare_events(expected.events, actual.events, tolerances, comparison);
   compare_residuals(expected, actual, tolerances, comparison);
   compare_traces(expected.trace, actual.trace, tolerances, comparison);
@@ -292,19 +254,14 @@ Comparison compare(const ObservedIdentification& expected, const ObservedIdentif
   compare_words("status", expected.status, actual.status, comparison);
   if (!comparison.same() && !actual.reason.empty()) comparison.lines.back().actual += ": " + actual.reason;
   compare_words("method", expected.method, actual.method, comparison);
-  for (const ParameterValue& p : expected.parameters)
-    compare_parameter(p, find_value(actual.parameters, p.name), tolerances, comparison);
-  compare_new(expected.parameters, actual.parameters, comparison);
+  compare_values(expected.parameters, actual.parameters, true, tolerances, comparison);
   return comparison;
 }
 
 Comparison compare(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
                    const ToleranceChain& tolerances) {
   Comparison comparison;
-  if (expected.empty() || actual.empty()) return comparison;
-  for (const ParameterValue& p : expected)
-    compare_value(p, find_value(actual, p.name), tolerances, comparison);
-  compare_new(expected, actual, comparison);
+  if (!expected.empty() && !actual.empty()) compare_values(expected, actual, false, tolerances, comparison);
   return comparison;
 }
 
@@ -338,9 +295,8 @@ void compare_events(const std::vector<ObservedEvent>& expected, const std::vecto
       continue;
     }
     used[partner] = 1;
-    const std::vector<Difference> found = compare_pair(event, actual[partner], tolerances);
-    comparison.differences.insert(comparison.differences.end(), found.begin(), found.end());
-    comparison.lines.push_back({line_of(event), line_of(actual[partner]), !found.empty()});
+    const bool differs = compare_pair(event, actual[partner], tolerances, comparison);
+    comparison.lines.push_back({line_of(event), line_of(actual[partner]), differs});
   }
   for (std::size_t i = 0; i < actual.size(); ++i) {
     if (used[i]) continue;

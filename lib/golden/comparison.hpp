@@ -49,10 +49,6 @@ Comparison compare(const ObservedIdentification& expected, const ObservedIdentif
 Comparison compare(const std::vector<ParameterValue>& expected, const std::vector<ParameterValue>& actual,
                    const ToleranceChain& tolerances);
 
-/// Adds a difference when `got` is out of tolerance; returns whether it is.
-bool compare_number(const std::string& channel, const std::string& family, double wanted, double got,
-                    double time, const ToleranceChain& tolerances, Comparison& comparison);
-
 /// The earliest difference that has a time; else the first. Null when same.
 const Difference* first_divergence(const Comparison& comparison);
 

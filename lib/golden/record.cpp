@@ -49,12 +49,6 @@ GoldenFile taken_log(const std::string& folder, const ReplayLog& log) {
   return {"logs/" + log.name, sha256_hex(bytes)};
 }
 
-void check_usable(const GoldenRun& run) {
-  for (const GoldenRun::Log& log : run.logs)
-    if (log.observation.verdict == kUnusable)
-      throw Error(ErrorCode::input, log.name, "cannot be a golden log: " + log.observation.reason);
-}
-
 /// Sets set.identification; why not, when there is nothing to identify from.
 std::string identify_from_healthy(const std::vector<ReplayLog>& logs, const GoldenRun& run,
                                   const Model& model, const LogOpener& open, const RecordOptions& options,
@@ -83,14 +77,6 @@ void refuse_unusable(const GoldenRun& run, const std::string& name) {
     throw Error(ErrorCode::input, name, "cannot be accepted: " + run.identification->reason);
 }
 
-/// The set with the hash that the log of that name has now.
-GoldenSet rehashed(const std::string& folder, GoldenSet set, const std::string& name) {
-  for (GoldenLog& log : set.logs)
-    if (log.name() == name)
-      log.log.sha256 = sha256_of_file((std::filesystem::path(folder) / log.log.path).string());
-  return set;
-}
-
 }  // namespace
 
 Recorded record_golden(const std::string& folder, const std::vector<std::string>& paths,
@@ -103,7 +89,9 @@ Recorded record_golden(const std::string& folder, const std::vector<std::string>
   const std::vector<ReplayLog> logs = named_logs(paths);
   const ModelAndCases subject = load_model_and_cases(model, cases);
   const GoldenRun run = replay(logs, subject, open, {options.trace_points, options.threads}, progress);
-  check_usable(run);
+  for (const GoldenRun::Log& log : run.logs)
+    if (log.observation.verdict == kUnusable)
+      throw Error(ErrorCode::input, log.name, "cannot be a golden log: " + log.observation.reason);
   Recorded recorded;
   GoldenSet& set = recorded.set;
   set.program_version = run.program_version;
@@ -134,7 +122,8 @@ void accept_golden(const std::string& folder, GoldenSet set, const GoldenRun& ru
   for (const auto& [channel, tolerance] : defaults.by_channel)
     set.tolerances.by_channel.try_emplace(channel, tolerance);
   for (const std::string& name : names) {
-    set = rehashed(folder, std::move(set), name);
+    for (GoldenLog& log : set.logs)
+      if (log.name() == name) log.log.sha256 = sha256_of_file((fs::path(folder) / log.log.path).string());
     set = with_actual(std::move(set), run, name);
   }
   save_golden(folder, set, before);

@@ -60,23 +60,6 @@ void add(const std::vector<ParameterEstimate>& from, std::vector<ParameterValue>
     if (!find_value(to, p.name)) to.push_back(value_of(p));
 }
 
-/// Reports the number of finished items, one caller at a time.
-class Counter {
- public:
-  Counter(const Progress& progress, std::size_t items) : progress_(progress), items_(items) {}
-  void done() {
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    if (progress_)
-      progress_("replaying golden logs", static_cast<double>(done_) / static_cast<double>(items_));
-  }
-
- private:
-  const Progress& progress_;
-  std::size_t items_, done_ = 0;
-  std::mutex mutex_;
-};
-
 }  // namespace
 
 ObservedIdentification observe_identification(const std::vector<ReplayLog>& logs, const Model& model,
@@ -111,13 +94,16 @@ GoldenRun replay(const std::vector<ReplayLog>& logs, const ModelAndCases& subjec
   std::vector<ReplayLog> healthy;
   std::copy_if(logs.begin(), logs.end(), std::back_inserter(healthy),
                [](const ReplayLog& log) { return log.identify; });
-  Counter counter(progress, logs.size() + 1);
+  std::mutex mutex;
+  double done = 0.0;
   parallel_for(static_cast<int>(logs.size()) + 1, options.threads, [&](int i) {
     if (i > 0)
       run.logs[i - 1] = {logs[i - 1].name, observe_file(logs[i - 1], subject, open, options.trace_points)};
     else if (!healthy.empty())
       run.identification = observe_identification(healthy, subject.model, open, options.threads);
-    counter.done();
+    const std::lock_guard lock(mutex);
+    done += 1.0;
+    if (progress) progress("replaying golden logs", done / static_cast<double>(logs.size() + 1));
   });
   return run;
 }
