@@ -11,6 +11,7 @@
 #include "lib/core/error.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
+#include "lib/report/text.hpp"
 
 namespace faultline {
 namespace {
@@ -52,23 +53,6 @@ GoldenRun expected_run(const GoldenSet& set) {
   for (const GoldenLog& log : set.logs) run.logs.push_back({log.name(), log.expected});
   if (set.identification) run.identification = set.identification->expected;
   return run;
-}
-
-GoldenCheck checked(const GoldenSet& set, const GoldenRun& first, const GoldenRun& second) {
-  GoldenCheck check{said_by(first), said_by(second), {}};
-  for (const GoldenLog& log : set.logs)
-    check.items.push_back(
-        checked_log(set, log, observation_of(first, log.name()), observation_of(second, log.name())));
-  if (set.identification) {
-    const ObservedIdentification expected = identification_of(first.identification),
-                                 actual = identification_of(second.identification);
-    check.items.push_back({kIdentification, "", expected.status, actual.status, 0, 0,
-                           compare(expected, actual, set.chain(*set.identification))});
-  }
-  if (!first.model_values.empty() && !second.model_values.empty())
-    check.items.push_back(
-        {kModelItem, "", "", "", 0, 0, compare(first.model_values, second.model_values, set.chain())});
-  return check;
 }
 
 std::string result_word(const CheckedItem& item) {
@@ -119,7 +103,42 @@ std::string summary(const GoldenCheck& check) {
                      different, where, damaged);
 }
 
-std::string body(const CheckedItem& item, const GoldenCheck& check) {
+/// "first divergence at 3.204 s: dq2 is 0.412, expected 0.398 (allowed 0.003)"; empty when nothing differs.
+std::string divergence_text(const CheckedItem& item) {
+  const Difference* first = first_divergence(item.comparison);
+  if (!first) return "";
+  std::string text = "first divergence";
+  if (!std::isnan(first->time_s)) text += " at " + seconds_text(first->time_s);
+  text += fmt::format(": {} is {}, expected {}", first->channel,
+                      first->actual.empty() ? "missing" : printable(first->actual),
+                      first->expected.empty() ? "none" : printable(first->expected));
+  if (!std::isnan(first->allowed) && first->channel != "rows")
+    text += fmt::format(" (allowed +-{:.3g})", first->allowed);
+  return text;
+}
+
+/// Lines of - expected and + actual among those that agree.
+std::string unified_difference(const CheckedItem& item, const GoldenCheck& check, bool color = false) {
+  std::string text =
+      painted(fmt::format("--- {}: expected by {}", printable(item.name), printable(check.expected_by)),
+              Paint::bold, color) +
+      "\n" +
+      painted(fmt::format("+++ {}: {}", printable(item.name), printable(check.actual_by)), Paint::bold,
+              color) +
+      "\n";
+  for (const DiffLine& line : item.comparison.lines) {
+    if (!line.differs) {
+      text += "  " + printable(line.expected) + "\n";
+      continue;
+    }
+    if (!line.expected.empty())
+      text += painted("- " + printable(line.expected), Paint::bold_red, color) + "\n";
+    if (!line.actual.empty()) text += painted("+ " + printable(line.actual), Paint::bold_green, color) + "\n";
+  }
+  return text;
+}
+
+std::string junit_body(const CheckedItem& item, const GoldenCheck& check) {
   if (!item.damage.empty())
     return fmt::format("      <error type=\"damaged\" message=\"{}\"/>\n", escaped_markup(item.damage));
   if (item.same()) return "";
@@ -139,15 +158,28 @@ bool GoldenCheck::damaged() const {
                      [](const CheckedItem& item) { return !item.damage.empty(); });
 }
 
-GoldenCheck check_golden(const GoldenSet& set, const GoldenRun& run) {
-  GoldenCheck check = checked(set, expected_run(set), run);
-  check.expected_by = fmt::format("golden.toml (faultline {}, model {} {})", set.program_version,
-                                  set.model_name, set.model.sha256.substr(0, 8));
+GoldenCheck compare_runs(const GoldenSet& set, const GoldenRun& first, const GoldenRun& second) {
+  GoldenCheck check{said_by(first), said_by(second), {}};
+  for (const GoldenLog& log : set.logs)
+    check.items.push_back(
+        checked_log(set, log, observation_of(first, log.name()), observation_of(second, log.name())));
+  if (set.identification) {
+    const ObservedIdentification expected = identification_of(first.identification),
+                                 actual = identification_of(second.identification);
+    check.items.push_back({kIdentification, "", expected.status, actual.status, 0, 0,
+                           compare(expected, actual, set.chain(*set.identification))});
+  }
+  if (!first.model_values.empty() && !second.model_values.empty())
+    check.items.push_back(
+        {kModelItem, "", "", "", 0, 0, compare(first.model_values, second.model_values, set.chain())});
   return check;
 }
 
-GoldenCheck compare_runs(const GoldenSet& set, const GoldenRun& first, const GoldenRun& second) {
-  return checked(set, first, second);
+GoldenCheck check_golden(const GoldenSet& set, const GoldenRun& run) {
+  GoldenCheck check = compare_runs(set, expected_run(set), run);
+  check.expected_by = fmt::format("golden.toml (faultline {}, model {} {})", set.program_version,
+                                  set.model_name, set.model.sha256.substr(0, 8));
+  return check;
 }
 
 GoldenSet with_actual(GoldenSet set, const GoldenRun& run, const std::string& name) {
@@ -168,39 +200,6 @@ GoldenSet with_actual(GoldenSet set, const GoldenRun& run, const std::string& na
   return set;
 }
 
-std::string divergence_text(const CheckedItem& item) {
-  const Difference* first = first_divergence(item.comparison);
-  if (!first) return "";
-  std::string text = "first divergence";
-  if (!std::isnan(first->time_s)) text += " at " + seconds_text(first->time_s);
-  text += fmt::format(": {} is {}, expected {}", first->channel,
-                      first->actual.empty() ? "missing" : printable(first->actual),
-                      first->expected.empty() ? "none" : printable(first->expected));
-  if (!std::isnan(first->allowed) && first->channel != "rows")
-    text += fmt::format(" (allowed +-{:.3g})", first->allowed);
-  return text;
-}
-
-std::string unified_difference(const CheckedItem& item, const GoldenCheck& check, bool color) {
-  std::string text =
-      painted(fmt::format("--- {}: expected by {}", printable(item.name), printable(check.expected_by)),
-              Paint::bold, color) +
-      "\n" +
-      painted(fmt::format("+++ {}: {}", printable(item.name), printable(check.actual_by)), Paint::bold,
-              color) +
-      "\n";
-  for (const DiffLine& line : item.comparison.lines) {
-    if (!line.differs) {
-      text += "  " + printable(line.expected) + "\n";
-      continue;
-    }
-    if (!line.expected.empty())
-      text += painted("- " + printable(line.expected), Paint::bold_red, color) + "\n";
-    if (!line.actual.empty()) text += painted("+ " + printable(line.actual), Paint::bold_green, color) + "\n";
-  }
-  return text;
-}
-
 std::string render_check_text(const GoldenCheck& check, bool color) {
   std::string text = table(check, color);
   for (const CheckedItem& item : check.items) {
@@ -215,21 +214,9 @@ std::string render_check_text(const GoldenCheck& check, bool color) {
 }
 
 std::string render_check_junit(const GoldenCheck& check, const std::string& suite) {
-  const auto errors = std::count_if(check.items.begin(), check.items.end(),
-                                    [](const CheckedItem& item) { return !item.damage.empty(); });
-  const auto same = std::count_if(check.items.begin(), check.items.end(),
-                                  [](const CheckedItem& item) { return item.same(); });
-  const std::string name = escaped_markup(suite);
-  std::string text = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"{}\" tests=\"{}\" "
-      "failures=\"{}\" errors=\"{}\">\n",
-      name, check.items.size(), std::ssize(check.items) - same - errors, errors);
-  for (const CheckedItem& item : check.items) {
-    const std::string inner = body(item, check);
-    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"{}", name, escaped_markup(item.name),
-                        inner.empty() ? "/>\n" : ">\n" + inner + "    </testcase>\n");
-  }
-  return text + "  </testsuite>\n</testsuites>\n";
+  std::vector<JunitCase> cases;
+  for (const CheckedItem& item : check.items) cases.push_back({item.name, junit_body(item, check)});
+  return junit_suite(suite, cases, "error");
 }
 
 }  // namespace faultline

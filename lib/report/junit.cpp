@@ -37,13 +37,8 @@ std::string failure(const FaultFinding& fault) {
       escaped_markup(fault.next_check));
 }
 
-struct TestCase {
-  std::string name;
-  std::string body;  ///< empty = passed
-};
-
-std::vector<TestCase> test_cases(const Diagnosis& diagnosis) {
-  std::vector<TestCase> cases = {{"robot", ""}};
+std::vector<JunitCase> test_cases(const Diagnosis& diagnosis) {
+  std::vector<JunitCase> cases = {{"robot", ""}};
   for (int joint = 1; joint <= diagnosis.log.joints; ++joint)
     cases.push_back({fmt::format("joint {}", joint), ""});
   for (const FaultFinding& fault : diagnosis.faults) {
@@ -58,21 +53,25 @@ std::vector<TestCase> test_cases(const Diagnosis& diagnosis) {
 
 }  // namespace
 
-std::string render_junit(const Diagnosis& diagnosis) {
-  const std::vector<TestCase> cases = test_cases(diagnosis);
-  const auto having = [&](const char* element) {
+std::string junit_suite(const std::string& suite, const std::vector<JunitCase>& cases,
+                        const std::string& other) {
+  const auto having = [&](const std::string& element) {
     return std::count_if(cases.begin(), cases.end(),
-                         [&](const TestCase& c) { return c.body.find(element) != std::string::npos; });
+                         [&](const JunitCase& c) { return c.body.find("<" + element) != std::string::npos; });
   };
-  const std::string name = escaped_markup(diagnosis.log.path);
+  const std::string name = escaped_markup(suite);
   std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"{}\" tests=\"{}\" "
-      "failures=\"{}\" skipped=\"{}\">\n",
-      name, cases.size(), having("<failure"), having("<skipped"));
-  for (const TestCase& c : cases)
-    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"{}", name, c.name,
+      "failures=\"{}\" {}=\"{}\">\n",
+      name, cases.size(), having("failure"), other == "error" ? "errors" : other, having(other));
+  for (const JunitCase& c : cases)
+    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"{}", name, escaped_markup(c.name),
                         c.body.empty() ? "/>\n" : ">\n" + c.body + "    </testcase>\n");
   return text + "  </testsuite>\n</testsuites>\n";
+}
+
+std::string render_junit(const Diagnosis& diagnosis) {
+  return junit_suite(diagnosis.log.path, test_cases(diagnosis), "skipped");
 }
 
 }  // namespace faultline

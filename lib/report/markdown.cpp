@@ -15,6 +15,30 @@ namespace {
 
 constexpr std::size_t kShownFeatures = 3;
 
+/// Text that Markdown shows as it is, also in a cell of a table; one line.
+std::string escaped_markdown(const std::string& text) {
+  static constexpr std::string_view kMarks = "\\`*_{}[]#|>~$";
+  const std::string line = printable(text);
+  std::string escaped;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const std::string_view rest = std::string_view(line).substr(i);
+    if (rest.starts_with("://"))
+      escaped += "&#58;";  // no link
+    else if (i > 0 && line[i] == '.' && std::string_view(line).substr(0, i).ends_with("www"))
+      escaped += "&#46;";
+    else if (line[i] == '<')
+      escaped += "&lt;";
+    else if (line[i] == '&')
+      escaped += "&amp;";
+    else if (line[i] == '@')
+      escaped += "&#64;";  // no mention
+    else
+      escaped += kMarks.find(line[i]) == std::string_view::npos ? std::string(1, line[i])
+                                                                : std::string("\\") + line[i];
+  }
+  return escaped;
+}
+
 std::string markdown_row(const std::vector<std::string>& cells) {
   std::string text = "|";
   for (const std::string& cell : cells) text += " " + escaped_markdown(cell) + " |";
@@ -78,29 +102,6 @@ std::string provenance(const Diagnosis& d) {
 }
 
 }  // namespace
-
-std::string escaped_markdown(const std::string& text) {
-  static constexpr std::string_view kMarks = "\\`*_{}[]#|>~$";
-  const std::string line = printable(text);
-  std::string escaped;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const std::string_view rest = std::string_view(line).substr(i);
-    if (rest.starts_with("://"))
-      escaped += "&#58;";  // no link
-    else if (i > 0 && line[i] == '.' && std::string_view(line).substr(0, i).ends_with("www"))
-      escaped += "&#46;";
-    else if (line[i] == '<')
-      escaped += "&lt;";
-    else if (line[i] == '&')
-      escaped += "&amp;";
-    else if (line[i] == '@')
-      escaped += "&#64;";  // no mention
-    else
-      escaped += kMarks.find(line[i]) == std::string_view::npos ? std::string(1, line[i])
-                                                                : std::string("\\") + line[i];
-  }
-  return escaped;
-}
 
 std::string render_markdown(const Diagnosis& d) {
   std::string text =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lib/diagnose/diagnosis.hpp"
 
@@ -30,9 +31,6 @@ std::string verdict_sentence(const Diagnosis& diagnosis);
 /// become markup, mentions or links.
 std::string render_markdown(const Diagnosis& diagnosis);
 
-/// Text that Markdown shows as it is, also in a cell of a table; one line.
-std::string escaped_markdown(const std::string& text);
-
 /// Schema "faultline/diagnosis/1" (docs/report.md): two-space indented, keys always all there and in the same
 /// order, NaN as null, text as valid UTF-8. The same Diagnosis gives the same bytes.
 std::string render_json(const Diagnosis& diagnosis);
@@ -42,6 +40,16 @@ std::string render_json(const Diagnosis& diagnosis);
 /// row with fault "none" when it is healthy and no row when it is inconclusive. RFC 4180 quoting; NaN is
 /// empty; a number is the shortest text that reads back the same.
 std::string render_csv(const Diagnosis& diagnosis);
+
+/// A test case of a JUnit report; an empty `body` (XML) passed.
+struct JunitCase {
+  std::string name;
+  std::string body;
+};
+
+/// JUnit XML of one suite. A body holds elements "failure" or those of the name `other`; both are counted.
+std::string junit_suite(const std::string& suite, const std::vector<JunitCase>& cases,
+                        const std::string& other);
 
 /// JUnit XML for continuous-integration servers: the log is a suite, each joint a test case that fails with
 /// the faults found on it; faults of no joint fail a case "robot"; an inconclusive log is one skipped case.
