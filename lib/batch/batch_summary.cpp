@@ -115,11 +115,6 @@ void fields(auto& v, MaybeConst<BatchFacts> auto& facts) {
   v("shards", facts.shards);
 }
 
-bool BatchFacts::operator==(const BatchFacts& other) const {
-  return settings_of(*this) == settings_of(other) && logs == other.logs && shard == other.shard &&
-         shards == other.shards;
-}
-
 std::string settings_of(const BatchFacts& facts) {
   std::string text;
   for (const ModelFacts& model : facts.models) text += settings_of(facts, model) + "\n";

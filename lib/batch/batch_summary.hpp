@@ -18,8 +18,6 @@ struct BatchFacts {
   int logs = 0;         ///< in the list, before sharding
   int shard = 0;        ///< takes the logs whose position is this one modulo `shards`
   int shards = 1;
-
-  bool operator==(const BatchFacts& other) const;
 };
 
 /// Of all that decides a result besides the log; of facts that differ in nothing else but logs and shards it

@@ -82,34 +82,31 @@ class Batch {
 
  private:
   JournalEntry entry_of(const BatchLog& log, int position) {
+    const auto which = static_cast<std::size_t>(log.model);
+    const std::string& settings = setup_.settings[which];
     const FileStamp before = stamp_of(log.path);
-    const auto unusable = [&](const Error& error) {
-      const auto which = static_cast<std::size_t>(log.model);
-      return fresh(
-          at(position, unusable_result(log, before, error, setup_.facts[which], setup_.settings[which])));
+    JournalEntry entry;
+    const auto take_unusable = [&](const Error& error) {
+      entry = unusable_result(log, before, error, setup_.facts[which], settings);
     };
     try {
       refuse_special_file(log.path);
-      const std::string& settings = setup_.settings[static_cast<std::size_t>(log.model)];
-      if (const JournalEntry* done = before_.find(log, settings)) return at(position, *done);
-      return fresh(at(position, write_log_result(log, setup_)));
+      if (const JournalEntry* done = before_.find(log, settings)) {
+        entry = *done;
+        entry.position = position;
+        return entry;
+      }
+      entry = write_log_result(log, setup_);
     } catch (const std::bad_alloc&) {
       throw;  // of this machine now, not of the log
     } catch (const Error& error) {
       if (error.code() == ErrorCode::output) throw;
-      return unusable(error);
+      take_unusable(error);
     } catch (const std::exception& error) {
-      return unusable(
+      take_unusable(
           Error(ErrorCode::internal, log.path, std::string("defect of faultline: ") + error.what()));
     }
-  }
-
-  static JournalEntry at(int position, JournalEntry entry) {
     entry.position = position;
-    return entry;
-  }
-
-  JournalEntry fresh(JournalEntry entry) {
     const std::lock_guard lock(mutex_);
     ++progress_.diagnosed;
     if (!entry.key.empty()) journal_.add(entry);
