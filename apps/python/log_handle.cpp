@@ -171,49 +171,38 @@ std::optional<Robot> robot_named(const std::string& robot) {
 
 namespace {
 
-struct WholeLog {
-  Log log;
-  LogIdentity identity;
-  Issues issues;
-};
-
-WholeLog whole(const LogHandle& handle, const std::optional<Robot>& robot, bool keep_extra,
-               ProgressRelay& watch) {
-  MappedSourceOptions options;
-  if (robot) options.columns = robot->log.columns;
-  options.run = handle.parts().run;
-  options.keep_extra = keep_extra;
-  const auto source = interruptible(
-      mended(std::make_unique<MappedSource>(
-                 handle.open_columns(robot ? robot->log.recording : RecordingChoice{}), options),
-             robot ? sliding_joints(robot->chain) : std::vector<bool>{}),
-      watch, true);
-  WholeLog out;
-  out.log = read_all(*source);
-  out.identity = source->identity();
-  out.issues = source->issues();
-  return out;
-}
-
 /// Returns the channels in SI by name, then the report of reading them, as JSON.
-py::tuple read_channels(const LogHandle& handle, const std::string& robot, bool extra,
+py::tuple read_channels(const LogHandle& handle, const std::string& robot_name, bool extra,
                         const py::object& progress) {
-  WholeLog read = watched(
-      progress, [&](ProgressRelay& watch) { return whole(handle, robot_named(robot), extra, watch); });
+  auto [log, facts] = watched(progress, [&](ProgressRelay& watch) {
+    const std::optional<Robot> robot = robot_named(robot_name);
+    MappedSourceOptions options;
+    if (robot) options.columns = robot->log.columns;
+    options.run = handle.parts().run;
+    options.keep_extra = extra;
+    const auto source = interruptible(
+        mended(std::make_unique<MappedSource>(
+                   handle.open_columns(robot ? robot->log.recording : RecordingChoice{}), options),
+               robot ? sliding_joints(robot->chain) : std::vector<bool>{}),
+        watch, true);
+    Log read = read_all(*source);
+    const LogIdentity& identity = source->identity();
+    return std::pair(std::move(read),
+                     json_text(Json{{"path", identity.path},
+                                    {"sha256", identity.sha256},
+                                    {"format", identity.format},
+                                    {"rows", identity.rows_read},
+                                    {"issues", list_of<Json>(source->issues().all(), issue_json)}}));
+  });
   py::dict channels, units;
-  channels["t"] = owned_array(std::move(read.log.time));
-  for_each_joint_channel(read.log, [&](std::vector<double>& values, Channel channel) {
+  channels["t"] = owned_array(std::move(log.time));
+  for_each_joint_channel(log, [&](std::vector<double>& values, Channel channel) {
     channels[to_string(channel).c_str()] = owned_array(std::move(values));
   });
-  for (ExtraChannel& one : read.log.extra) {
+  for (ExtraChannel& one : log.extra) {
     units[one.name.c_str()] = one.unit;
     channels[one.name.c_str()] = owned_array(std::move(one.values));
   }
-  const std::string facts = json_text(Json{{"path", read.identity.path},
-                                           {"sha256", read.identity.sha256},
-                                           {"format", read.identity.format},
-                                           {"rows", read.identity.rows_read},
-                                           {"issues", list_of<Json>(read.issues.all(), issue_json)}});
   return py::make_tuple(channels, units, facts);
 }
 

@@ -5,10 +5,10 @@ from typing import Any, Iterable, List, Optional, Union
 from . import _faultline
 from ._arguments import PathLike, Progress, path_of
 from ._log import LogLike, handles_of
-from ._record import Record, Result, frame_of
+from ._record import MadeResult, Record, frame_of
 
 
-class Identification(Result):
+class Identification(MadeResult):
     """What was identified; attributes are the members of its JSON (schema faultline/identification/1):
     status, base_parameters, physical_parameters, condition_number, residual_rms, fit_r2, logs ..."""
 
@@ -17,14 +17,6 @@ class Identification(Result):
     physical_parameters: List[Record]
     condition_number: Optional[float]
     logs: List[Record]
-
-    def __init__(self, made: Any) -> None:
-        super().__init__(made.json())
-        self._made = made
-
-    def text(self) -> str:
-        """The summary of the terminal."""
-        return self._made.text()
 
     def to_html(self) -> str:
         """The page with plots."""

@@ -2,13 +2,12 @@
 """Models: learned, loaded, used."""
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple, Union
 
-from . import _faultline, _networks, _onnx
-from ._arguments import PathLike, Progress, path_of
+from . import _faultline, _onnx
+from ._arguments import Label, PathLike, Progress, labels_for, path_of
 from ._diagnosis import Diagnosis, diagnosed
-from ._labels import Label, labels_for
-from ._log import LogLike, handles_of
+from ._log import LogLike, handles_of, log_of
 from ._onnx import OnnxFile
-from ._record import Record, Result
+from ._record import MadeResult, Record
 from .errors import InputError, UsageError
 
 Labels = Union[PathLike, Mapping[str, Label], None]
@@ -163,11 +162,11 @@ class Model:
         """The inputs of a network for a log, as NumPy matrices by name of the input, with one row per
         prediction for residual_mlp, per sample for sample_mlp and sample_rbfn, and per episode for
         evidence_mlp and evidence_rbfn. SI units; NaN where something is missing."""
-        return _networks.inputs_in(self._handle, network, log, progress)
+        return _faultline.network_inputs(self._handle, network, log_of(log)._handle, progress)
 
     def network_outputs(self, network: str, inputs: Mapping[str, Any]) -> Any:
         """The output of a network for matrices of its inputs by name, as a NumPy matrix with as many rows."""
-        return _networks.outputs_of(self._handle, network, inputs)
+        return _onnx.outputs_of(self._handle, network, inputs)
 
     def to_onnx(self, folder: PathLike) -> List[OnnxFile]:
         """Writes each of its networks as an ONNX file (opset 15, float64) into the folder, which is made, and
@@ -193,7 +192,7 @@ def files_of(model: Union[Model, PathLike, None], cases: Optional[PathLike], wha
     return model.path, path_of(cases) or model._handle.own_cases
 
 
-class Learned(Result):
+class Learned(MadeResult):
     """What learning found; attributes are the members of its JSON (schema faultline/learning/1): name,
     identification, doubts, validation, sources, cases ..."""
 
@@ -202,8 +201,7 @@ class Learned(Result):
     validation: Record
 
     def __init__(self, made: Any) -> None:
-        super().__init__(made.json())
-        self._made = made
+        super().__init__(made)
         self._model: Optional[Model] = None
 
     @property
@@ -212,10 +210,6 @@ class Learned(Result):
         if self._model is None:
             self._model = Model._of(self._made.model())
         return self._model
-
-    def text(self) -> str:
-        """The summary of the terminal."""
-        return self._made.text()
 
 
 def load_model(path: PathLike, *, cases: Optional[PathLike] = None) -> Model:

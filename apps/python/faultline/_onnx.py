@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The networks of a model as ONNX files."""
+"""The networks of a model: on arrays, and as ONNX files."""
 import hashlib
 import json
 from typing import Any, Callable, Dict, List, Mapping, Tuple
@@ -7,7 +7,7 @@ from typing import Any, Callable, Dict, List, Mapping, Tuple
 from . import _faultline
 from ._onnx_graph import Graph, onnx_module
 from ._record import Record
-from .errors import InputError
+from .errors import InputError, UsageError
 
 MOST_RATIO = 2.0
 """Of torque residual to torque, either way, as the sample classifiers see it."""
@@ -88,6 +88,24 @@ BUILDERS: Dict[str, Callable[[Graph, Members], str]] = {
 def layouts_of(handle: Any) -> List[Dict[str, Any]]:
     """Name, what, inputs and output of each network of a model of the compiled part."""
     return json.loads(_faultline.network_layouts(handle))
+
+
+def outputs_of(handle: Any, network: str, inputs: Members) -> Any:
+    """See Model.network_outputs."""
+    import numpy
+
+    named = {layout["name"]: [port["name"] for port in layout["inputs"]] for layout in layouts_of(handle)}
+    names = named.get(network, [])  # the compiled part refuses an unknown network
+    if network in named and sorted(names) != sorted(inputs):
+        given = ", ".join(sorted(inputs)) or "nothing"
+        raise UsageError(network, f"takes {', '.join(names)}, but was given {given}")
+    arrays = []
+    for name in names:
+        try:
+            arrays.append(numpy.ascontiguousarray(inputs[name], dtype="float64"))
+        except (TypeError, ValueError) as error:
+            raise UsageError(name, f"is not a matrix of numbers ({error})") from error
+    return _faultline.network_outputs(handle, network, arrays)
 
 
 def _properties(layout: Members, model: Members, sha256: str) -> Dict[str, str]:

@@ -89,6 +89,18 @@ class Result(Record):
         return self._text
 
 
+class MadeResult(Result):
+    """A result that the compiled part holds, too."""
+
+    def __init__(self, made: Any) -> None:
+        super().__init__(made.json())
+        self._made = made
+
+    def text(self) -> str:
+        """The summary of the terminal."""
+        return self._made.text()
+
+
 def frame_of(rows: List[Dict[str, Any]]) -> Any:
     """A pandas DataFrame with one row per item of `rows`. Raises ImportError without pandas."""
     import pandas
