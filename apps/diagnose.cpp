@@ -16,7 +16,7 @@
 #include "lib/core/error.hpp"
 #include "lib/log/prefetch.hpp"
 #include "lib/model/model_files.hpp"
-#include "lib/report/html/report_formats.hpp"
+#include "lib/report/html/html_report.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {

@@ -42,51 +42,46 @@ std::vector<std::string> both(std::vector<std::string> a, const std::vector<std:
   return a;
 }
 
-/// Judges the conditions of all analyses that need torques: sets fit, reason and help.
-void judge_torques(const Facts& facts, PossibleAnalysis& analysis) {
-  analysis.channels = both(facts.motions, facts.torques);
-  if (!facts.all_torques) {
-    analysis.why = facts.torques.empty() ? "there is no torque" : "not every joint has a torque";
-    analysis.help =
-        "log the torque of every joint, or name it in the robot file: [log.columns] tau1 = {name = .., "
-        "scale = .. N m for 1 A}";
-    return;
-  }
-  if (facts.period_s > kSlowPeriod_s) {
-    analysis.why =
-        fmt::format("a row every {:.3g} s is too coarse to estimate accelerations", facts.period_s);
-    analysis.help = "log at 50 Hz or more";
-    return;
-  }
-  analysis.fit = AnalysisFit::possible;
-  if (facts.period_s > kCoarsePeriod_s) {
-    analysis.fit = AnalysisFit::limited;
-    analysis.why = fmt::format("a row every {:.3g} s shows little of fast motion", facts.period_s);
-    analysis.help = "log at 50 Hz or more";
-  } else if (!facts.inspection.quality.velocity.size()) {
-    analysis.why = "the velocity is derived from the position";
-    analysis.help = "log the drives' velocity, too";
-  }
+void judge(PossibleAnalysis& analysis, AnalysisFit fit, const std::string& why, const std::string& help) {
+  analysis.fit = fit;
+  analysis.why = why;
+  analysis.help = help;
 }
 
-void judge_length(const Facts& facts, PossibleAnalysis& analysis) {
-  if (analysis.fit == AnalysisFit::impossible) return;
-  if (facts.span_s >= kShortLog_s && facts.inspection.rows_used >= kFewRows) return;
-  analysis.fit = AnalysisFit::limited;
-  analysis.why = fmt::format("{} rows in {:.3g} s contain little information about a robot",
-                             facts.inspection.rows_used, facts.span_s);
-  analysis.help = "give several logs, or one of a minute with all joints moving";
+/// Judges the conditions of all analyses that need torques: sets fit, reason and help.
+PossibleAnalysis of_torques(const char* name, const char* what, const Facts& facts) {
+  PossibleAnalysis analysis{.name = name, .what = what, .channels = both(facts.motions, facts.torques)};
+  const std::string log_faster = "log at 50 Hz or more";
+  if (!facts.all_torques)
+    judge(analysis, AnalysisFit::impossible,
+          facts.torques.empty() ? "there is no torque" : "not every joint has a torque",
+          "log the torque of every joint, or name it in the robot file: [log.columns] tau1 = {name = .., "
+          "scale = .. N m for 1 A}");
+  else if (facts.period_s > kSlowPeriod_s)
+    judge(analysis, AnalysisFit::impossible,
+          fmt::format("a row every {:.3g} s is too coarse to estimate accelerations", facts.period_s),
+          log_faster);
+  else if (facts.period_s > kCoarsePeriod_s)
+    judge(analysis, AnalysisFit::limited,
+          fmt::format("a row every {:.3g} s shows little of fast motion", facts.period_s), log_faster);
+  else if (facts.inspection.quality.velocity.empty())
+    judge(analysis, AnalysisFit::possible, "the velocity is derived from the position",
+          "log the drives' velocity, too");
+  else
+    analysis.fit = AnalysisFit::possible;
+  return analysis;
 }
 
 PossibleAnalysis identify(const Facts& facts) {
-  PossibleAnalysis analysis{"identify", "identify the robot's parameters", {}, {}, {}, {}};
-  judge_torques(facts, analysis);
-  judge_length(facts, analysis);
-  if (analysis.fit != AnalysisFit::impossible && !facts.inspection.quality.velocity.empty() && !facts.moves) {
-    analysis.fit = AnalysisFit::impossible;
-    analysis.why = "no joint moves";
-    analysis.help = "log a motion that uses all joints";
-  }
+  PossibleAnalysis analysis = of_torques("identify", "identify the robot's parameters", facts);
+  if (analysis.fit == AnalysisFit::impossible) return analysis;
+  if (!(facts.span_s >= kShortLog_s && facts.inspection.rows_used >= kFewRows))
+    judge(analysis, AnalysisFit::limited,
+          fmt::format("{} rows in {:.3g} s contain little information about a robot",
+                      facts.inspection.rows_used, facts.span_s),
+          "give several logs, or one of a minute with all joints moving");
+  if (!facts.inspection.quality.velocity.empty() && !facts.moves)
+    judge(analysis, AnalysisFit::impossible, "no joint moves", "log a motion that uses all joints");
   return analysis;
 }
 
@@ -101,33 +96,24 @@ PossibleAnalysis learn(const Facts& facts, const PossibleAnalysis& identified) {
   return analysis;
 }
 
-PossibleAnalysis torque_residuals(const Facts& facts) {
-  PossibleAnalysis analysis{"torque_residuals", "diagnose faults by torque residuals", {}, {}, {}, {}};
-  judge_torques(facts, analysis);
-  return analysis;
-}
-
 PossibleAnalysis tracking(const Facts& facts) {
-  PossibleAnalysis analysis{"tracking", "check whether the joints follow their references", {}, {}, {}, {}};
-  analysis.channels = both(facts.motions, facts.references);
-  if (facts.references.empty()) {
-    analysis.why = "there is no commanded motion";
-    analysis.help = "log q_ref1.. or dq_ref1..";
-  } else {
-    analysis.fit = AnalysisFit::possible;
-  }
+  PossibleAnalysis analysis{.name = "tracking",
+                            .what = "check whether the joints follow their references",
+                            .fit = AnalysisFit::possible,
+                            .channels = both(facts.motions, facts.references)};
+  if (facts.references.empty())
+    judge(analysis, AnalysisFit::impossible, "there is no commanded motion", "log q_ref1.. or dq_ref1..");
   return analysis;
 }
 
 PossibleAnalysis motion(const Facts& facts) {
-  PossibleAnalysis analysis{"motion", "check motion alone: gaps, stuck or contradicting encoders", {}, {}, {},
-                            {}};
-  analysis.channels = facts.motions;
-  analysis.fit = AnalysisFit::possible;
-  if (!facts.inspection.quality.velocity.empty()) return analysis;
-  analysis.fit = AnalysisFit::limited;
-  analysis.why = "there is no velocity to compare the position with";
-  analysis.help = "log the drives' velocity, too";
+  PossibleAnalysis analysis{.name = "motion",
+                            .what = "check motion alone: gaps, stuck or contradicting encoders",
+                            .fit = AnalysisFit::possible,
+                            .channels = facts.motions};
+  if (facts.inspection.quality.velocity.empty())
+    judge(analysis, AnalysisFit::limited, "there is no velocity to compare the position with",
+          "log the drives' velocity, too");
   return analysis;
 }
 
@@ -148,17 +134,19 @@ const char* to_string(AnalysisFit fit) {
 std::vector<PossibleAnalysis> possible_analyses(const Inspection& inspection) {
   const Facts facts(inspection);
   const PossibleAnalysis identified = identify(facts);
-  std::vector<PossibleAnalysis> all{identified, learn(facts, identified), torque_residuals(facts),
-                                    tracking(facts), motion(facts)};
+  std::vector<PossibleAnalysis> all{
+      identified, learn(facts, identified),
+      of_torques("torque_residuals", "diagnose faults by torque residuals", facts), tracking(facts),
+      motion(facts)};
   if (!facts.none()) return all;
   for (PossibleAnalysis& analysis : all) {
-    analysis.fit = AnalysisFit::impossible;
     analysis.channels.clear();
-    analysis.why = inspection.joint_log ? fmt::format("{} usable rows are too few", inspection.rows_used)
-                                        : "no time or no position was found";
-    analysis.help = inspection.joint_log
-                        ? "give a longer log"
-                        : "name the columns in a robot file; --suggest writes one to begin with";
+    if (inspection.joint_log)
+      judge(analysis, AnalysisFit::impossible,
+            fmt::format("{} usable rows are too few", inspection.rows_used), "give a longer log");
+    else
+      judge(analysis, AnalysisFit::impossible, "no time or no position was found",
+            "name the columns in a robot file; --suggest writes one to begin with");
   }
   return all;
 }

@@ -21,6 +21,12 @@ namespace {
 /// Added to the verdict, which is on the recording: a faulty run may be recorded well.
 constexpr const char* kNotOfTheRobot = "; `faultline diagnose` judges whether the robot has a fault";
 
+auto number_of(const Issues& issues, Severity severity) {
+  const auto& all = issues.all();
+  return std::count_if(all.begin(), all.end(),
+                       [severity](const Issue& issue) { return issue.severity == severity; });
+}
+
 const char* unit_of(Quantity quantity, AxisKind axis) {
   if (quantity == Quantity::time) return "s";
   if (is_torque(quantity)) return torque_unit(axis);
@@ -162,11 +168,7 @@ Inspection inspect_table(RawReader& reader, const ColumnMap& map) {
 
 }  // namespace
 
-bool Inspection::severe() const {
-  const auto& all = issues.all();
-  return std::any_of(all.begin(), all.end(),
-                     [](const Issue& issue) { return issue.severity == Severity::severe; });
-}
+bool Inspection::severe() const { return number_of(issues, Severity::severe) > 0; }
 
 double Inspection::share_used() const {
   return log.rows_read > 0 ? static_cast<double>(rows_used) / static_cast<double>(log.rows_read)
@@ -175,21 +177,18 @@ double Inspection::share_used() const {
 
 double Inspection::completeness() const { return faultline::completeness(quality.time); }
 
+const ChannelCheckup* Inspection::checkup_of(const std::string& channel, bool canonical) const {
+  const auto known = canonical ? canonical_channel(channel) : std::nullopt;
+  return known ? checkup.find(*known) : nullptr;
+}
+
 const char* verdict_of(const Inspection& inspection) {
   if (!inspection.joint_log) return "no_joint_log";
   if (inspection.severe()) return "damaged";
-  const auto& all = inspection.issues.all();
-  const bool warned = std::any_of(all.begin(), all.end(),
-                                  [](const Issue& issue) { return issue.severity == Severity::warning; });
-  return warned ? "doubtful" : "sound";
+  return number_of(inspection.issues, Severity::warning) > 0 ? "doubtful" : "sound";
 }
 
 std::string verdict_sentence_of(const Inspection& inspection) {
-  const auto& all = inspection.issues.all();
-  const auto number = [&](Severity severity) {
-    return std::count_if(all.begin(), all.end(),
-                         [severity](const Issue& issue) { return issue.severity == severity; });
-  };
   const std::string verdict = verdict_of(inspection);
   if (verdict == "no_joint_log") return "no joint log: no time or no position was found in it";
   const bool for_all = std::none_of(
@@ -200,11 +199,23 @@ std::string verdict_sentence_of(const Inspection& inspection) {
     return std::string(for_all ? "the recording is sound: nothing is wrong with its data"
                                : "the recording is sound, but not suitable for every analysis") +
            kNotOfTheRobot;
-  const auto severe = number(Severity::severe), warned = number(Severity::warning);
+  const auto severe = number_of(inspection.issues, Severity::severe),
+             warned = number_of(inspection.issues, Severity::warning);
   if (verdict == "doubtful")
     return fmt::format("the recording is usable with care: {}{}", counted(warned, "warning"), kNotOfTheRobot);
   return fmt::format("look at the recording before you use it: {}{}", counted(severe, "severe finding"),
                      warned > 0 ? ", " + counted(warned, "warning") : "");
+}
+
+std::string issue_words(const Issue& issue, bool with_time) {
+  std::string words = issue.code;
+  if (!issue.channel.empty()) words += " " + shortened(issue.channel, kLongestName);
+  if (issue.count > 1) words += fmt::format(", {} times", issue.count);
+  if (issue.first_row > 0) words += fmt::format(", first in row {}", issue.first_row);
+  if (with_time && std::isfinite(issue.first_time_s))
+    words += fmt::format(" at {:.10g} s", issue.first_time_s);
+  if (issue.rows_dropped > 0) words += fmt::format(", {} rows left out", issue.rows_dropped);
+  return words;
 }
 
 Inspection inspect_columns(std::unique_ptr<RawReader> reader, const std::optional<Robot>& robot,

@@ -62,9 +62,9 @@ struct PossibleAnalysis {
   std::string name;  ///< "identify", "learn", "torque_residuals", "tracking", "motion"
   std::string what;  ///< description for the user
   AnalysisFit fit = AnalysisFit::impossible;
-  std::vector<std::string> channels;  ///< channels that the analysis uses
-  std::string why;                    ///< empty when possible without reservation
-  std::string help;                   ///< what would make more possible; may be empty
+  std::vector<std::string> channels{};  ///< channels that the analysis uses
+  std::string why{};                    ///< empty when possible without reservation
+  std::string help{};                   ///< what would make more possible; may be empty
 };
 
 std::vector<PossibleAnalysis> possible_analyses(const Inspection& inspection);
@@ -97,12 +97,16 @@ struct Inspection {
   /// to 1, NaN while unknown.
   double share_used() const;
   double completeness() const;
+  /// Returns null for a channel that is not canonical.
+  const ChannelCheckup* checkup_of(const std::string& channel, bool canonical) const;
 };
 
 /// Returns "sound", "doubtful" (a warning), "damaged" (a severe issue) or "no_joint_log".
 const char* verdict_of(const Inspection& inspection);
 /// Returns the verdict on the recording as a sentence; `faultline diagnose` judges the robot.
 std::string verdict_sentence_of(const Inspection& inspection);
+/// Returns "gap t, 3 times, first in row 17 at 0.4 s, 2 rows left out", the time only on request.
+std::string issue_words(const Issue& issue, bool with_time);
 
 /// Inspects a log. Throws Error(input) when nothing can be read from the file.
 Inspection inspect_log(const std::string& path, const std::optional<Robot>& robot, const Progress& progress,

@@ -10,7 +10,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/columns/unit_fit.hpp"
-#include "lib/report/plot/line_plot.hpp"
+#include "lib/report/html/elements.hpp"
 
 namespace faultline {
 namespace {
@@ -88,8 +88,7 @@ std::vector<PlotBand> bands_of(const Inspection& inspection, double zero_s) {
 std::vector<PlotBand> stuck_bands(const Inspection& inspection, const ChannelGroup& group, double zero_s) {
   std::vector<PlotBand> bands;
   for (const OverviewChannel* channel : group.channels) {
-    const auto known = channel->canonical ? canonical_channel(channel->name) : std::nullopt;
-    const ChannelCheckup* found = known ? inspection.checkup.find(*known) : nullptr;
+    const ChannelCheckup* found = inspection.checkup_of(channel->name, channel->canonical);
     if (!found || !inspection.issues.find("stuck_channel", channel->name)) continue;
     const SameValue& same = found->course.while_moving;
     bands.push_back({same.start_s - zero_s, same.start_s + same.length_s - zero_s});
@@ -112,11 +111,7 @@ std::string legend(const ChannelGroup& group) {
   std::string text = "<ul class=\"legend\">";
   const bool captioned = group.channels.size() == 1 && !group.channels[0]->canonical;
   for (std::size_t i = 0; i < group.channels.size() && !captioned; ++i)
-    text += fmt::format(
-        "<li><svg viewBox=\"0 0 28 8\" aria-hidden=\"true\"><line x1=\"0\" x2=\"28\" y1=\"4\" y2=\"4\" "
-        "stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"/></svg>{}</li>",
-        plot_pen(i).colour, plot_pen(i).dashes,
-        escaped_markup(shortened(group.channels[i]->name, kLongestName)));
+    text += legend_item(plot_pen(i), escaped_markup(shortened(group.channels[i]->name, kLongestName)));
   return text + "</ul>";
 }
 

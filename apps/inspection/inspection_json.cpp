@@ -14,21 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json channel_json(const InspectedChannel& channel) {
-  const ChannelSummary& summary = channel.summary;
-  return {{"name", valid_utf8(summary.name)},
-          {"column", valid_utf8(channel.column)},
-          {"unit", valid_utf8(channel.unit)},
-          {"canonical", summary.canonical},
-          {"min", number_or_null(summary.min)},
-          {"max", number_or_null(summary.max)},
-          {"values", summary.values},
-          {"missing", summary.missing},
-          {"constant", summary.constant()},
-          {"at_min", summary.at_min},
-          {"at_max", summary.at_max}};
-}
-
 Json same_value_json(const SameValue& same) {
   if (same.rows == 0) return nullptr;
   return {{"rows", same.rows},
@@ -39,10 +24,20 @@ Json same_value_json(const SameValue& same) {
 }
 
 /// Returns the members of a channel with those of the checkup, which only canonical channels have.
-Json channel_json(const InspectedChannel& channel, const CheckupResult& checkup) {
-  Json json = channel_json(channel);
-  const auto canonical = channel.summary.canonical ? canonical_channel(channel.summary.name) : std::nullopt;
-  const ChannelCheckup* found = canonical ? checkup.find(*canonical) : nullptr;
+Json channel_json(const InspectedChannel& channel, const Inspection& inspection) {
+  const ChannelSummary& summary = channel.summary;
+  Json json{{"name", valid_utf8(summary.name)},
+            {"column", valid_utf8(channel.column)},
+            {"unit", valid_utf8(channel.unit)},
+            {"canonical", summary.canonical},
+            {"min", number_or_null(summary.min)},
+            {"max", number_or_null(summary.max)},
+            {"values", summary.values},
+            {"missing", summary.missing},
+            {"constant", summary.constant()},
+            {"at_min", summary.at_min},
+            {"at_max", summary.at_max}};
+  const ChannelCheckup* found = inspection.checkup_of(summary.name, summary.canonical);
   if (!found) return json;
   json["step"] = number_or_null(found->course.step.value_or(std::nan("")));
   json["longest_unchanged"] = same_value_json(found->course.longest);
@@ -113,7 +108,7 @@ Json inspection_json(const Inspection& inspection) {
             {"sample_period_s", number_or_null(time.period_s)}};
   if (inspection.log.runs.size() > 1) json["runs"] = list_of<Json>(inspection.log.runs, log_run_json);
   json["channels"] = list_of<Json>(inspection.channels, [&](const InspectedChannel& channel) {
-    return channel_json(channel, inspection.checkup);
+    return channel_json(channel, inspection);
   });
   json["lacking"] = inspection.lacking;
   json["issues"] = list_of<Json>(inspection.issues.all(), valid_issue_json);

@@ -8,7 +8,6 @@
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/report/html/elements.hpp"
-#include "lib/report/html/head.hpp"
 
 namespace faultline {
 namespace {
@@ -22,22 +21,12 @@ const char* colour_of(const Inspection& inspection) {
   return verdict == "sound" ? "healthy" : verdict == "doubtful" ? "inconclusive" : "faulty";
 }
 
-/// Headings of a page of one log; on a page of several logs they are a level lower.
-class Headings {
- public:
-  explicit Headings(std::size_t logs) : level_(logs > 1 ? 2 : 1) {}
+/// `level`: 1 for the heading of the log on a page of one log, 2 on a page of several.
+std::string heading(int level, const std::string& text) {
+  return fmt::format("<h{0}>{1}</h{0}>\n", level, escaped_markup(text));
+}
 
-  std::string of_log(const std::string& text) const { return heading(level_, text); }
-  std::string of_part(const std::string& text) const { return heading(level_ + 1, text); }
-
- private:
-  static std::string heading(int level, const std::string& text) {
-    return fmt::format("<h{0}>{1}</h{0}>\n", level, escaped_markup(text));
-  }
-  int level_;
-};
-
-std::string top(const Inspection& inspection, const Headings& headings) {
+std::string top(const Inspection& inspection, int level) {
   const TimeAxis& time = inspection.quality.time;
   std::string facts = fmt::format("{}, {} rows, {} used", inspection.log.format, inspection.log.rows_read,
                                   inspection.rows_used);
@@ -48,7 +37,7 @@ std::string top(const Inspection& inspection, const Headings& headings) {
   std::string verdict = verdict_sentence_of(inspection);
   if (!verdict.empty()) verdict[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(verdict[0])));
   return fmt::format("{}<p class=\"sub\">{}</p>\n<p class=\"verdict {}\">{}</p>\n",
-                     headings.of_log(printable(inspection.log.path)), escaped_markup(facts),
+                     heading(level, printable(inspection.log.path)), escaped_markup(facts),
                      colour_of(inspection), escaped_markup(brief(verdict)));
 }
 
@@ -58,24 +47,18 @@ std::string item(const std::string& word, const std::string& what, const std::st
                      sentence.empty() ? "" : ": ", escaped_markup(sentence));
 }
 
-std::string findings(const Inspection& inspection, const Headings& headings) {
+std::string findings(const Inspection& inspection, int level) {
   std::vector<Issue> issues = inspection.issues.all();
   std::stable_sort(issues.begin(), issues.end(),
                    [](const Issue& a, const Issue& b) { return a.severity > b.severity; });
   std::string text;
-  for (const Issue& issue : issues) {
-    std::string what = issue.code;
-    if (!issue.channel.empty()) what += " " + shortened(issue.channel, kLongestName);
-    if (issue.count > 1) what += fmt::format(", {} times", issue.count);
-    if (issue.first_row > 0) what += fmt::format(", first in row {}", issue.first_row);
-    if (issue.rows_dropped > 0) what += fmt::format(", {} rows left out", issue.rows_dropped);
-    text += item(to_string(issue.severity), what, issue.message);
-  }
-  return headings.of_part("Findings") +
+  for (const Issue& issue : issues)
+    text += item(to_string(issue.severity), issue_words(issue, false), issue.message);
+  return heading(level + 1, "Findings") +
          (text.empty() ? "<p>No problems were found.</p>\n" : "<ul>\n" + text + "</ul>\n");
 }
 
-std::string analyses(const Inspection& inspection, const Headings& headings) {
+std::string analyses(const Inspection& inspection, int level) {
   std::string text;
   for (const PossibleAnalysis& analysis : inspection.analyses) {
     std::string sentence = analysis.why;
@@ -84,14 +67,14 @@ std::string analyses(const Inspection& inspection, const Headings& headings) {
       sentence += fmt::format("{}from {}", sentence.empty() ? "" : "; ", fmt::join(analysis.channels, ", "));
     text += item(to_string(analysis.fit), analysis.what, sentence);
   }
-  return headings.of_part("Possible analyses") + "<ul>\n" + text + "</ul>\n";
+  return heading(level + 1, "Possible analyses") + "<ul>\n" + text + "</ul>\n";
 }
 
-std::string time_facts(const Inspection& inspection, const Headings& headings) {
+std::string time_facts(const Inspection& inspection, int level) {
   const TimeAxis& time = inspection.quality.time;
   if (std::isnan(time.period_s)) return "";
   std::string text =
-      headings.of_part("Time") +
+      heading(level + 1, "Time") +
       html_table(
           {},
           {{"sample period (median)", fmt::format("{:.6g} s", time.period_s)},
@@ -120,22 +103,21 @@ std::string unchanged_text(const ChannelCheckup* found) {
   return fmt::format("{} rows at {}", same.rows, value_text(same.value));
 }
 
-std::string channels(const Inspection& inspection, const Headings& headings) {
+std::string channels(const Inspection& inspection, int level) {
   std::vector<HtmlRow> rows;
   for (const InspectedChannel& channel : inspection.channels) {
     if (rows.size() == kShownChannels) break;
     const ChannelSummary& summary = channel.summary;
-    const auto known = summary.canonical ? canonical_channel(summary.name) : std::nullopt;
-    const ChannelCheckup* found = known ? inspection.checkup.find(*known) : nullptr;
+    const ChannelCheckup* found = inspection.checkup_of(summary.name, summary.canonical);
     const bool any = summary.values > 0;
     rows.push_back({shortened(summary.name, kLongestName), shortened(channel.column, kLongestName),
                     shortened(channel.unit, kLongestName), any ? value_text(summary.min) : "-",
                     any ? value_text(summary.max) : "-", std::to_string(summary.missing), step_text(found),
                     unchanged_text(found), fmt::format("{:.2g} %", 100.0 * share_at_limits(summary))});
   }
-  return headings.of_part("Channels") + html_table({"channel", "column", "unit", "least", "largest",
-                                                    "missing", "step", "longest unchanged", "at a limit"},
-                                                   rows, "Channels");
+  return heading(level + 1, "Channels") + html_table({"channel", "column", "unit", "least", "largest",
+                                                      "missing", "step", "longest unchanged", "at a limit"},
+                                                     rows, "Channels");
 }
 
 std::string joints(const Inspection& inspection) {
@@ -159,19 +141,19 @@ std::string inspection_page(const std::vector<Inspection>& inspections) {
                                                        : counted(std::ssize(inspections), "log"),
                                false) +
                      "<body>\n<main>\n";
-  const Headings headings(inspections.size());
+  const int level = inspections.size() > 1 ? 2 : 1;
   if (inspections.size() > 1) text += fmt::format("<h1>{}</h1>\n", counted(std::ssize(inspections), "log"));
   for (std::size_t i = 0; i < inspections.size(); ++i) {
     const Inspection& inspection = inspections[i];
     const std::string figures = inspection_figures(inspection, fmt::format("log{}-", i + 1));
-    text += top(inspection, headings) + findings(inspection, headings) + analyses(inspection, headings);
+    text += top(inspection, level) + findings(inspection, level) + analyses(inspection, level);
     if (!figures.empty())
-      text += headings.of_part("The channels") +
+      text += heading(level + 1, "The channels") +
               "<p class=\"sub\">Shaded: gaps, and times at which a channel did not change although its "
               "joint moved.</p>\n" +
               figures;
-    text += time_facts(inspection, headings) + channels(inspection, headings) + joints(inspection);
-    text += headings.of_part("Provenance") +
+    text += time_facts(inspection, level) + channels(inspection, level) + joints(inspection);
+    text += heading(level + 1, "Provenance") +
             html_table({}, {{"log SHA-256", inspection.log.sha256}}, "Provenance");
   }
   return text + "</main>\n</body>\n</html>\n";

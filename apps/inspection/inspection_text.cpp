@@ -80,8 +80,7 @@ std::string analysis_line(const PossibleAnalysis& analysis, bool color) {
 }
 
 std::string course_words(const Inspection& inspection, const ChannelSummary& summary) {
-  const auto channel = summary.canonical ? canonical_channel(summary.name) : std::nullopt;
-  const ChannelCheckup* found = channel ? inspection.checkup.find(*channel) : nullptr;
+  const ChannelCheckup* found = inspection.checkup_of(summary.name, summary.canonical);
   if (!found) return "";
   std::string words;
   if (found->course.step) words += fmt::format(" step {:.3g}", *found->course.step);
@@ -135,15 +134,8 @@ Paint verdict_paint(const Inspection& inspection) {
 }
 
 std::string issue_line(const Issue& issue, bool color) {
-  std::string line =
-      "  " + painted(fmt::format("{:<8}", to_string(issue.severity)), paint_of(issue.severity), color);
-  line += issue.code;
-  if (!issue.channel.empty()) line += " " + shortened(issue.channel, kLongestName);
-  if (issue.count > 1) line += fmt::format(", {} times", issue.count);
-  if (issue.first_row > 0) line += fmt::format(", first in row {}", issue.first_row);
-  if (std::isfinite(issue.first_time_s)) line += fmt::format(" at {:.10g} s", issue.first_time_s);
-  if (issue.rows_dropped > 0) line += fmt::format(", {} rows left out", issue.rows_dropped);
-  return line + ": " + issue.message + "\n";
+  return "  " + painted(fmt::format("{:<8}", to_string(issue.severity)), paint_of(issue.severity), color) +
+         issue_words(issue, true) + ": " + issue.message + "\n";
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "lib/diagnose/diagnose.hpp"
 #include "lib/fault/fault_kind.hpp"
 #include "lib/log/prefetch.hpp"
-#include "lib/report/html/report_formats.hpp"
+#include "lib/report/html/html_report.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {

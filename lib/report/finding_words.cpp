@@ -37,6 +37,13 @@ std::string list(const std::vector<PrecedentFeature>& features, std::size_t most
   return text;
 }
 
+template <typename Items, typename Line>
+std::vector<std::string> lines_of(const Items& items, Line line) {
+  std::vector<std::string> lines;
+  for (const auto& item : items) lines.push_back(line(item));
+  return lines;
+}
+
 /// "MLP residual of joint 2: 41.5 times healthy".
 std::string evidence_line(const EvidenceItem& e) {
   if (std::isnan(e.value)) return e.name == "decision" || e.text.empty() ? e.text : e.name + ": " + e.text;
@@ -102,15 +109,12 @@ std::vector<std::vector<std::string>> opinion_rows(const FaultFinding& f) {
 }
 
 std::vector<std::string> alternative_lines(const FaultFinding& fault) {
-  std::vector<std::string> lines;
-  for (const Alternative& a : fault.could_also_be) lines.push_back(plain_words(a.label) + ": " + a.why);
-  return lines;
+  return lines_of(fault.could_also_be,
+                  [](const Alternative& a) { return plain_words(a.label) + ": " + a.why; });
 }
 
 std::vector<std::string> evidence_lines(const FaultFinding& fault) {
-  std::vector<std::string> lines;
-  for (const EvidenceItem& item : fault.evidence) lines.push_back(evidence_line(item));
-  return lines;
+  return lines_of(fault.evidence, evidence_line);
 }
 
 std::vector<std::vector<std::string>> residual_rows(const Diagnosis& d) {
@@ -121,17 +125,12 @@ std::vector<std::vector<std::string>> residual_rows(const Diagnosis& d) {
   return rows;
 }
 
-std::vector<std::string> issue_lines(const Issues& issues) {
-  std::vector<std::string> lines;
-  for (const Issue& issue : issues.all()) lines.push_back(issue_line(issue));
-  return lines;
-}
+std::vector<std::string> issue_lines(const Issues& issues) { return lines_of(issues.all(), issue_line); }
 
 std::vector<std::string> small_change_lines(const Diagnosis& diagnosis) {
-  std::vector<std::string> lines;
-  for (const FaultFinding& change : diagnosis.small_changes)
-    lines.push_back(small_change_text(change, diagnosis.log.sample_period_s));
-  return lines;
+  return lines_of(diagnosis.small_changes, [&](const FaultFinding& change) {
+    return small_change_text(change, diagnosis.log.sample_period_s);
+  });
 }
 
 std::string precedents_title(const FaultFinding& fault) {

@@ -40,8 +40,6 @@ std::string fit_text(const Identification& id) {
   return text + fmt::format("  condition number {:.3g}\n", id.condition_number);
 }
 
-std::string share_text(double share) { return std::isfinite(share) ? percent_text(share) : "-"; }
-
 std::string pattern_text(const Identification& id) {
   std::string text = "patterns of the torque residual, in shares of its variance\n";
   for (std::size_t j = 0; j < id.residual_patterns.size(); ++j) {
@@ -81,6 +79,8 @@ std::string flag_line(const ParameterTrend& t) {
 }
 
 }  // namespace
+
+std::string share_text(double share) { return std::isfinite(share) ? percent_text(share) : "-"; }
 
 const char* term_verdict(const ModelTerm& term) {
   if (term.kept) return "is kept";

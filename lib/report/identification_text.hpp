@@ -20,6 +20,9 @@ std::vector<std::string> trend_lines(const Identification& identification);
 /// another.
 std::vector<std::string> excitation_lines(const Identification& identification);
 
+/// "96 %"; "-" when it is not known.
+std::string share_text(double share);
+
 /// Whether a term pays, or why it is left out all the same.
 const char* term_verdict(const ModelTerm& term);
 

@@ -137,10 +137,8 @@ std::string residuals_text(const Diagnosis& d) {
   if (d.residuals.empty()) return "";
   std::string text = "Residuals against the regenerated fault-free motion (1 = as in the healthy logs)\n";
   text += "  joint  velocity rms  largest  at            position rms\n";
-  for (const JointResidual& r : d.residuals)
-    text += fmt::format("  {:<7}{:<14}{:<9}{:<14}{}\n", r.joint, value_text(r.velocity_rms),
-                        value_text(r.velocity_peak), time_text(r.velocity_peak_s, d.log.sample_period_s),
-                        value_text(r.position_rms));
+  for (const auto& row : residual_rows(d))
+    text += fmt::format("  {:<7}{:<14}{:<9}{:<14}{}\n", row[0], row[1], row[2], row[3], row[4]);
   return text + "\n";
 }
 

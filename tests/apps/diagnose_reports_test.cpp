@@ -5,7 +5,7 @@
 #include "formats/log_writer.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "lib/report/html/report_formats.hpp"
+#include "lib/report/html/html_report.hpp"
 #include "tests/learn/small_robot.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"

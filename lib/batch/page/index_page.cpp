@@ -11,7 +11,6 @@
 #include "lib/core/text.hpp"
 #include "lib/fault/fault_words.hpp"
 #include "lib/report/html/elements.hpp"
-#include "lib/report/html/head.hpp"
 
 namespace faultline {
 namespace {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lib/report/fact_table.hpp"
@@ -33,7 +36,26 @@ struct NamedPlot {
   LinePlot plot;
 };
 
+/// An item of a legend: a line of this pen, then `html`.
+std::string legend_item(const PlotPen& pen, const std::string& html);
+
 /// Pictures with caption and legend, for a page without scripts; empty without plots.
 std::string still_figures(const std::vector<NamedPlot>& plots);
+
+/// RFC 4648 with padding.
+std::string base64(std::span<const std::uint8_t> bytes);
+
+/// As Content-Security-Policy names an inline script or style: "'sha256-...'".
+std::string source_hash(std::string_view content);
+
+/// From the doctype to </head>: title, styles, and a policy that allows nothing but them and, with
+/// `with_script`, its scripts.
+std::string html_head(const std::string& title, bool with_script);
+
+// Files that are put into every page, embedded when the program is built (embed_assets.cmake).
+std::string_view dygraphs_script();  ///< dygraph.min.js of Debian's libjs-dygraphs
+std::string_view dygraphs_style();
+std::string_view page_script();
+std::string_view page_style();
 
 }  // namespace faultline

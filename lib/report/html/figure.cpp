@@ -38,9 +38,7 @@ Range range_of(const FigureCurve& curve, std::size_t begin, std::size_t end) {
 
 /// The curve with at most kPictureSamples samples; of each group its extremes stay, in their order.
 PlotSeries thinned(const FigureCurve& curve, bool largest_only) {
-  PlotSeries series;
-  series.name = curve.name;
-  series.pen = curve.pen;
+  PlotSeries series{.name = curve.name, .x = {}, .y = {}, .pen = curve.pen};
   const std::size_t count = curve.count(), group = 2 * ((count + kPictureSamples - 1) / kPictureSamples);
   auto put = [&](std::size_t i) {
     series.x.push_back(curve.time_s(i));
@@ -89,18 +87,13 @@ std::string picture(const PageFigure& figure) {
 
 std::string legend(const PageFigure& figure) {
   std::string text = "<ul class=\"legend\">";
-  auto item = [&](std::size_t number, const std::string& name, const char* value) {
-    const PlotPen pen = plot_pen(number);
-    text += fmt::format(
-        "<li><svg viewBox=\"0 0 28 8\" aria-hidden=\"true\"><line x1=\"0\" x2=\"28\" y1=\"4\" y2=\"4\" "
-        "stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"/></svg>{}{}</li>",
-        pen.colour, pen.dashes, escaped_markup(name), value);
-  };
   for (const FigureCurve& curve : figure.curves)
-    item(static_cast<std::size_t>(curve.pen), curve.name, " <b></b>");
+    text +=
+        legend_item(plot_pen(static_cast<std::size_t>(curve.pen)), escaped_markup(curve.name) + " <b></b>");
   std::size_t next = figure.curves.size();
   for (const FigureLimit& limit : figure.limits)
-    item(next++, fmt::format("{}: {}", limit.name, value_text(limit.value)), "");
+    text += legend_item(plot_pen(next++),
+                        escaped_markup(fmt::format("{}: {}", limit.name, value_text(limit.value))));
   return text + "<li class=\"at\"><b></b></li></ul>";
 }
 

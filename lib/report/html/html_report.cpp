@@ -3,14 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "lib/core/error.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/diagnose/curves/run_curves.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/html/elements.hpp"
-#include "lib/report/html/head.hpp"
 #include "lib/report/html/page_figures.hpp"
 #include "lib/report/model_facts.hpp"
 #include "lib/report/text.hpp"
@@ -132,6 +133,13 @@ std::vector<FaultFinding> counted_from(double zero_s, std::vector<FaultFinding> 
   return faults;
 }
 
+template <std::string (*render)(const Diagnosis&)>
+std::string from_diagnosis(const ReportSource& source) {
+  return render(source.diagnosis);
+}
+
+std::string page(const ReportSource& source) { return render_html(source.diagnosis, source.details()); }
+
 }  // namespace
 
 ReportDetails report_details(LogSource& log, const Model& model, const Diagnosis& diagnosis,
@@ -174,6 +182,31 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
   text += provenance(d, details) + "</main>\n";
   if (!whole.empty()) text += scripts(html_plot_data(faults, curves, all));
   return text + "</body>\n</html>\n";
+}
+
+const std::vector<ReportFormat>& report_formats() {
+  static const std::vector<ReportFormat> table{
+      {"json", "the diagnosis as JSON", false, from_diagnosis<render_json>},
+      {"csv", "one row a fault as CSV", false, from_diagnosis<render_csv>},
+      {"html", "a page to look at: plots, evidence, similar cases, provenance", true, page},
+      {"md", "Markdown for an issue tracker", false, from_diagnosis<render_markdown>},
+      {"junit", "JUnit XML for a CI server", false, from_diagnosis<render_junit>},
+  };
+  return table;
+}
+
+const ReportFormat& report_format(std::string_view name) {
+  const auto& table = report_formats();
+  const auto found = std::find_if(table.begin(), table.end(),
+                                  [&](const ReportFormat& format) { return format.name == name; });
+  if (found == table.end()) throw Error(ErrorCode::internal, std::string(name), "is not a report format");
+  return *found;
+}
+
+ReportSource report_source(LogSource& log, const Model& model, const Diagnosis& diagnosis,
+                           const DiagnoseOptions& options) {
+  return {diagnosis,
+          [&log, &model, &diagnosis, options] { return report_details(log, model, diagnosis, options); }};
 }
 
 }  // namespace faultline

@@ -7,7 +7,7 @@
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/report/html/head.hpp"
+#include "lib/report/html/elements.hpp"
 #include "lib/report/html/page_figures.hpp"
 
 namespace faultline {

@@ -12,7 +12,6 @@
 #include "lib/core/version.hpp"
 #include "lib/diagnose/curves/curves.hpp"
 #include "lib/report/html/elements.hpp"
-#include "lib/report/html/head.hpp"
 
 namespace faultline {
 namespace {
@@ -28,9 +27,7 @@ struct TimeSpan {
 /// Two extremes a bin; the samples themselves where there are few.
 PlotSeries curve(const std::string& name, const SignalDifference& signal, const std::vector<double>& values,
                  const TimeSpan& span, int pen) {
-  PlotSeries series;
-  series.name = name;
-  series.pen = pen;
+  PlotSeries series{.name = name, .x = {}, .y = {}, .pen = pen};
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < signal.time.size(); ++i)
     if (signal.time[i] >= span.from && signal.time[i] <= span.to) rows.push_back(i);
@@ -51,12 +48,7 @@ PlotSeries curve(const std::string& name, const SignalDifference& signal, const 
 }
 
 PlotSeries level(const std::string& name, double value, const TimeSpan& span, int pen) {
-  PlotSeries series;
-  series.name = name;
-  series.pen = pen;
-  series.x = {span.from, span.to};
-  series.y = {value, value};
-  return series;
+  return {.name = name, .x = {span.from, span.to}, .y = {value, value}, .pen = pen};
 }
 
 NamedPlot plot_of(const SignalDifference& signal, const std::string& unit, const TimeSpan& span,

@@ -9,7 +9,6 @@
 #include "lib/core/text.hpp"
 #include "lib/core/version.hpp"
 #include "lib/report/html/elements.hpp"
-#include "lib/report/html/head.hpp"
 #include "lib/report/identification_text.hpp"
 #include "lib/robot/chain.hpp"
 
@@ -48,8 +47,6 @@ std::string part(const char* id, const char* title, const std::string& content) 
   return content.empty() ? "" : fmt::format("<h2 id=\"{}\">{}</h2>\n{}", id, title, content);
 }
 
-std::string share_cell(double share) { return std::isfinite(share) ? percent_text(share) : "-"; }
-
 std::string r2_text(double r2) { return std::isfinite(r2) ? fmt::format("{:.4f}", r2) : "-"; }
 
 double nth(const std::vector<double>& values, std::size_t i) {
@@ -86,8 +83,8 @@ std::string pattern_table(const Identification& id) {
   std::vector<HtmlRow> rows;
   for (std::size_t j = 0; j < id.residual_patterns.size(); ++j) {
     const ResidualPattern& p = id.residual_patterns[j];
-    rows.push_back({std::to_string(j + 1), share_cell(p.position), share_cell(p.speed), share_cell(p.torque),
-                    share_cell(p.previous)});
+    rows.push_back({std::to_string(j + 1), share_text(p.position), share_text(p.speed), share_text(p.torque),
+                    share_text(p.previous)});
   }
   return html_table(FactTable{"Patterns of the torque residual, in shares of its variance",
                               {"joint", "position", "speed", "torque", "its value a window before"},
@@ -124,7 +121,7 @@ std::string excitation_tables(const Identification& id) {
     joints.push_back({std::to_string(j + 1),
                       fmt::format("{:.3g} to {:.3g} {}", e.q_low, e.q_high, position_unit(kind)),
                       fmt::format("{:.3g} {}", e.fastest_forward, velocity_unit(kind)),
-                      fmt::format("{:.3g} {}", e.fastest_back, velocity_unit(kind)), share_cell(e.forward),
+                      fmt::format("{:.3g} {}", e.fastest_back, velocity_unit(kind)), share_text(e.forward),
                       e.lacks.empty() ? "nothing" : e.lacks});
   }
   for (const ParameterExcitation& p : id.excitation.parameters)

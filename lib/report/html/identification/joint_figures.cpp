@@ -149,11 +149,17 @@ PlotSeries mean_through(const Cloud& cloud) {
   return out;
 }
 
-NamedPlot left_over(const std::string& name, const std::string& title, const std::string& x_label,
-                    const std::string& y_label, const Cloud& cloud) {
-  LinePlot plot = figure_plot(title, x_label);
-  plot.panels = {{.y_label = y_label, .series = {dots("windows", cloud), mean_through(cloud)}}};
-  return {name, plot};
+/// What is left of the torque over a quantity of the motion.
+NamedPlot left_over(const Identification& id, int joint, const char* quantity, const char* unit,
+                    const std::vector<double>& values) {
+  const JointFit& fit = id.joint_fits[joint];
+  const Cloud cloud = cloud_of(
+      fit, [&](std::size_t k) { return values[k]; }, [&](std::size_t k) { return fit.residual(k); });
+  LinePlot plot = figure_plot(fmt::format("Joint {}: torque residual over {}", joint + 1, quantity),
+                              fmt::format("{}, {}", quantity, unit));
+  plot.panels = {{.y_label = fmt::format("residual, {}", torque_unit(id.space.chain.geometry[joint].kind)),
+                  .series = {dots("windows", cloud), mean_through(cloud)}}};
+  return {fmt::format("left-{}-{}", quantity, joint + 1), plot};
 }
 
 /// The friction of the identified robot over the speeds of the logs.
@@ -233,20 +239,10 @@ std::vector<NamedPlot> joint_figures(const Identification& id, int joint) {
   if (joint >= std::ssize(id.joint_fits) || id.joint_fits[joint].size() == 0) return {};
   const JointFit& fit = id.joint_fits[joint];
   const AxisKind kind = id.space.chain.geometry[joint].kind;
-  const std::string y_label = fmt::format("residual, {}", torque_unit(kind));
-  const auto residual = [&](std::size_t k) { return fit.residual(k); };
   std::vector<NamedPlot> plots = torque_figures(id, joint);
   plots.push_back(friction_figure(id, joint));
-  plots.push_back(left_over(fmt::format("left-position-{}", joint + 1),
-                            fmt::format("Joint {}: torque residual over position", joint + 1),
-                            fmt::format("position, {}", position_unit(kind)), y_label,
-                            cloud_of(
-                                fit, [&](std::size_t k) { return fit.q[k]; }, residual)));
-  plots.push_back(left_over(fmt::format("left-speed-{}", joint + 1),
-                            fmt::format("Joint {}: torque residual over speed", joint + 1),
-                            fmt::format("speed, {}", velocity_unit(kind)), y_label,
-                            cloud_of(
-                                fit, [&](std::size_t k) { return fit.dq[k]; }, residual)));
+  plots.push_back(left_over(id, joint, "position", position_unit(kind), fit.q));
+  plots.push_back(left_over(id, joint, "speed", velocity_unit(kind), fit.dq));
   if (!id.residual_patterns[joint].spectrum.empty()) plots.push_back(spectrum_figure(id, joint));
   return plots;
 }
