@@ -74,12 +74,9 @@ void add_golden_record(CLI::App* golden, Program& program) {
                    "Largest number of points of the predicted motion to keep per log")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  add_threads_option(*command, arguments->threads);
+  add_threads_option(*command, arguments->options.threads);
   command->footer("Example: faultline golden record runs/*.csv --model robot.model -o golden");
-  command->callback([arguments, &program] {
-    arguments->options.threads = arguments->threads;
-    program.run = [arguments, &program] { return run_record(*arguments, program.color); };
-  });
+  set_work(*command, program, [arguments](ColorChoice color) { return run_record(*arguments, color); });
 }
 
 int run_check(const GoldenArguments& arguments, ColorChoice color) {
@@ -111,13 +108,11 @@ std::string sentence(const char* what, const std::vector<std::string>& names) {
   return fmt::format("{}: {}\n", what, printable(fmt::format("{}", fmt::join(names, ", "))));
 }
 
-AcceptPlan planned(const AcceptArguments& arguments, ColorChoice color) {
-  ProgressBar bar(color);
-  return plan_accept(arguments, bar.callback());
-}
-
 int run_accept(const AcceptArguments& arguments, ColorChoice color) {
-  const AcceptPlan plan = planned(arguments, color);
+  const AcceptPlan plan = [&] {
+    ProgressBar bar(color);
+    return plan_accept(arguments, bar.callback());
+  }();
   const bool in_color = use_color(color, stdout);
   print(render_check_text(arguments.same_verdict ? plan.check : plan.part, in_color), in_color);
   if (!arguments.accepts()) {

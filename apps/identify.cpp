@@ -128,10 +128,7 @@ void add_identify(CLI::App& app, Program& program) {
   command->add_flag(
       "--force", arguments->force,
       "Also use logs whose numbers are implausible in their units, such as degrees read as radians");
-  command
-      ->add_option("--threads", arguments->options.threads,
-                   "Number of threads, 0 = one per core; the result does not depend on it")
-      ->check(CLI::Range(0, kMostThreads));
+  add_threads_option(*command, arguments->options.threads)->default_str("");
   command->footer(
       "Exit status 0: identified, 1: this robot does not explain the logs (unexplained).\n"
       "Example: faultline identify healthy1.csv healthy2.csv --robot robot.toml -o identified.toml");

@@ -27,6 +27,7 @@ bool environment_forbids_color() {
 }
 
 constexpr int kProgressWidth = 30;
+constexpr auto kDelay = std::chrono::milliseconds(300);  // before the bar appears
 constexpr auto kRefresh = std::chrono::milliseconds(100);
 
 std::string bar(double share, bool color) {
@@ -70,10 +71,10 @@ void prepare_standard_streams() {
     if (::fcntl(descriptor, F_GETFD) == -1 && ::open("/dev/null", O_RDONLY) == -1) return;
 }
 
-ProgressBar::ProgressBar(ColorChoice color, double delay_s)
+ProgressBar::ProgressBar(ColorChoice color)
     : on_terminal_(is_terminal(stderr)),
       color_(use_color(color, stderr)),
-      next_(std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<int>(delay_s * 1000))) {}
+      next_(std::chrono::steady_clock::now() + kDelay) {}
 
 ProgressBar::~ProgressBar() {
   if (shown_) std::fputs("\r\x1b[K", stderr);

@@ -28,10 +28,10 @@ void print_message(std::string_view sentence);
 void prepare_standard_streams();
 
 /// A progress bar on standard error while the object lives, if that is a terminal; else nothing. Give
-/// `callback()` to the long work. The bar appears after `delay_s`, so that short work shows none.
+/// `callback()` to the long work. The bar appears after a moment, so that short work shows none.
 class ProgressBar {
  public:
-  explicit ProgressBar(ColorChoice color, double delay_s = 0.3);
+  explicit ProgressBar(ColorChoice color);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;

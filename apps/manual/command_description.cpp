@@ -50,8 +50,6 @@ void add_options_before(const CLI::App& command, CommandDescription& described) 
 
 }  // namespace
 
-std::string CommandDescription::own_name() const { return name.substr(name.rfind(' ') + 1); }
-
 CommandDescription describe_command(const CLI::App& command, const std::string& prefix) {
   CommandDescription described;
   described.name = prefix + command.get_name();

@@ -32,7 +32,7 @@ struct CommandDescription {
   bool commands_required = false;  ///< does nothing by itself
 
   /// The last word of the name: "check".
-  std::string own_name() const;
+  std::string own_name() const { return name.substr(name.rfind(' ') + 1); }
 };
 
 /// Describes a command; `prefix` has the words before its own name, each followed by a blank. Hidden options

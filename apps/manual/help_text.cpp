@@ -15,6 +15,27 @@ namespace {
 constexpr int kHelpWidth = 100;
 constexpr int kHelpIndent = 30;
 
+/// Returns "faultline convert [OPTIONS] LOG OUT".
+std::string usage_of(const CommandDescription& command) {
+  std::string usage = command.name + " [OPTIONS]";
+  for (const ArgumentDescription& argument : command.positionals) {
+    const std::string name = argument.value + (argument.repeated ? "..." : "");
+    usage += argument.required ? " " + name : " [" + name + "]";
+  }
+  if (!command.commands.empty()) usage += command.commands_required ? " COMMAND" : " [COMMAND]";
+  return usage;
+}
+
+/// Returns "-o,--output DIR", "--threads N=0", "--color {auto,always,never}".
+std::string title_of(const ArgumentDescription& argument) {
+  std::string title = fmt::format("{}", fmt::join(argument.flags, ","));
+  if (!argument.value.empty()) title += title.empty() ? argument.value : " " + argument.value;
+  if (!argument.choices.empty()) title += fmt::format(":{{{}}}", fmt::join(argument.choices, ","));
+  if (!argument.preset.empty()) title += "=" + argument.preset;
+  if (argument.repeated) title += " ...";
+  return title + (argument.required ? " REQUIRED" : "");
+}
+
 /// Returns the title and beside it, or below a long one, the words.
 std::string entry(const std::string& title, const std::string& words) {
   const std::string indent(kHelpIndent, ' ');
@@ -117,25 +138,6 @@ ManPage page_of(const CommandDescription& command) {
 }
 
 }  // namespace
-
-std::string usage_of(const CommandDescription& command) {
-  std::string usage = command.name + " [OPTIONS]";
-  for (const ArgumentDescription& argument : command.positionals) {
-    const std::string name = argument.value + (argument.repeated ? "..." : "");
-    usage += argument.required ? " " + name : " [" + name + "]";
-  }
-  if (!command.commands.empty()) usage += command.commands_required ? " COMMAND" : " [COMMAND]";
-  return usage;
-}
-
-std::string title_of(const ArgumentDescription& argument) {
-  std::string title = fmt::format("{}", fmt::join(argument.flags, ","));
-  if (!argument.value.empty()) title += title.empty() ? argument.value : " " + argument.value;
-  if (!argument.choices.empty()) title += fmt::format(":{{{}}}", fmt::join(argument.choices, ","));
-  if (!argument.preset.empty()) title += "=" + argument.preset;
-  if (argument.repeated) title += " ...";
-  return title + (argument.required ? " REQUIRED" : "");
-}
 
 std::string help_text(const CommandDescription& command) {
   return command.about + "\nUsage: " + usage_of(command) + "\n" +

@@ -72,10 +72,8 @@ class Guesser {
           joint_numbers(time_, raw(Quantity::q, j), raw(Quantity::dq, j), raw(Quantity::tau, j)));
     guess_time();
     guess_units();
-    for (int j = 1; j <= joints_; ++j) {
-      const auto at = static_cast<std::size_t>(j - 1);
-      guess_.axes.push_back(guess_axis(numbers_[at], units_[at], header_unit(find(Quantity::q, j))));
-    }
+    for (int j = 1; j <= joints_; ++j)
+      guess_.axes.push_back(guess_axis(numbers_[j - 1], units_[j - 1], header_unit(find(Quantity::q, j))));
     guess_torques();
     return std::move(guess_);
   }
@@ -130,11 +128,9 @@ class Guesser {
   }
 
   void guess_units(OtherAngles others) {
-    for (int j = 1; j <= joints_; ++j) {
-      const auto at = static_cast<std::size_t>(j - 1);
-      units_[at] = guess_joint_units(numbers_[at], time_factor_, header_unit(find(Quantity::q, j)),
-                                     header_unit(find(Quantity::dq, j)), others);
-    }
+    for (int j = 1; j <= joints_; ++j)
+      units_[j - 1] = guess_joint_units(numbers_[j - 1], time_factor_, header_unit(find(Quantity::q, j)),
+                                        header_unit(find(Quantity::dq, j)), others);
   }
 
   /// Returns degrees if the values of some joint certainly are, or no other joint moves far in radians.
@@ -156,7 +152,7 @@ class Guesser {
     guess_units(OtherAngles::unknown);
     guess_units(other_angles());
     for (int j = 1; j <= joints_; ++j) {
-      const auto& units = units_[static_cast<std::size_t>(j - 1)];
+      const GuessedUnits& units = units_[j - 1];
       set_unit(Quantity::q, j, units.position), set_unit(Quantity::q_ref, j, units.position);
       set_unit(Quantity::dq, j, units.velocity), set_unit(Quantity::dq_ref, j, units.velocity);
       if (!units.flipped) continue;
@@ -167,21 +163,18 @@ class Guesser {
     }
   }
 
-  /// Returns the values multiplied by the factor.
-  std::vector<double> scaled(Quantity quantity, int joint, double factor) {
-    std::vector<double> values = raw(quantity, joint);
+  static std::vector<double> scaled(std::vector<double> values, double factor) {
     for (double& value : values) value *= factor;
     return values;
   }
 
   std::vector<TorqueRelated> torques_related(const std::vector<std::vector<double>>& tau,
                                              std::size_t most_rows = kAllRows) {
-    std::vector<double> time = time_;
-    for (double& t : time) t *= time_factor_;
+    const std::vector<double> time = scaled(time_, time_factor_);
     const double period_s = median_step(time);
     std::vector<std::vector<double>> q;
     for (int j = 1; j <= joints_; ++j)
-      q.push_back(scaled(Quantity::q, j, units_[static_cast<std::size_t>(j - 1)].position_factor));
+      q.push_back(scaled(raw(Quantity::q, j), units_[j - 1].position_factor));
     if (!(period_s > 0.0)) return {};
     TorqueRelation relation(joints_, period_s);
     for (std::size_t i = 0; i < std::min(time.size(), most_rows); ++i) relation.add(time[i], q, tau, i);
@@ -236,7 +229,9 @@ class Guesser {
     return left;
   }
 
+  /// Takes columns as the torques of the joints in their order.
   void add_torques(const std::vector<int>& columns, const std::string& reason) {
+    guess_.untold.push_back("the torque for a value of 1 in the torque columns: their names give no unit");
     for (std::size_t j = 0; j < columns.size(); ++j)
       guess_.channels.push_back({{Quantity::tau, static_cast<int>(j) + 1}, columns[j], {}, reason});
     std::sort(guess_.channels.begin(), guess_.channels.end(),
@@ -247,7 +242,6 @@ class Guesser {
   void take_columns_left() {
     const std::vector<int> left = columns_left();
     if (is_named() || !find(Quantity::dq, 1) || std::ssize(left) != joints_) return;
-    guess_.untold.push_back("the torque for a value of 1 in the torque columns: their names give no unit");
     add_torques(left,
                 "? as many columns as joints have no other meaning; they are used as the torques in their "
                 "order");
@@ -264,14 +258,13 @@ class Guesser {
         const auto related = torques_related(
             std::vector<std::vector<double>>(static_cast<std::size_t>(joints_), excerpt_.values[*at]),
             kSearchedRows);
-        const double share = related.empty() ? NAN : related[static_cast<std::size_t>(j - 1)].correlation;
+        const double share = related.empty() ? NAN : related[j - 1].correlation;
         if (std::abs(share) > most) most = std::abs(share), best = at;
       }
       if (best == left.end()) return;
       found.push_back(*best);
       left.erase(best);
     }
-    guess_.untold.push_back("the torque for a value of 1 in the torque columns: their names give no unit");
     add_torques(found, "? by the data: it correlates with the joint's acceleration");
   }
 

@@ -61,6 +61,24 @@ void add_verdict(const ReportJson& diagnosis, std::vector<LogEvent>& events) {
       {start.get<double>(), false, reason.is_string() ? found + ": " + reason.get<std::string>() : found});
 }
 
+/// Returns the events of a report; `where` names it.
+std::vector<LogEvent> events_of_diagnosis(const std::string& report, const std::string& where) {
+  const ReportJson diagnosis = ReportJson::parse(report, nullptr, false);
+  std::vector<LogEvent> events;
+  try {
+    if (!diagnosis.is_object() || diagnosis.at("schema") != kSchema) throw Error(ErrorCode::input, where, "");
+    for (const ReportJson& fault : diagnosis.at("faults")) add_events(fault, events);
+    if (diagnosis.at("faults").empty()) add_verdict(diagnosis, events);
+  } catch (const std::exception&) {
+    throw Error(
+        ErrorCode::input, where,
+        std::string("is not a diagnosis (schema ") + kSchema + "); write one with faultline diagnose --json");
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const LogEvent& a, const LogEvent& b) { return a.time_s < b.time_s; });
+  return events;
+}
+
 ComputedSignals signals_of(const char* topic, int joints, bool with_velocity) {
   const JointSignals empty(joints);
   return {topic, empty, with_velocity ? empty : JointSignals{}, empty};
@@ -109,23 +127,6 @@ NamedCurves evidence_of(const FaultFinding& fault) {
 
 std::vector<LogEvent> events_of_file(const std::string& path) {
   return events_of_diagnosis(read_file(path, kMostBytes), path);
-}
-
-std::vector<LogEvent> events_of_diagnosis(const std::string& report, const std::string& where) {
-  const ReportJson diagnosis = ReportJson::parse(report, nullptr, false);
-  std::vector<LogEvent> events;
-  try {
-    if (!diagnosis.is_object() || diagnosis.at("schema") != kSchema) throw Error(ErrorCode::input, where, "");
-    for (const ReportJson& fault : diagnosis.at("faults")) add_events(fault, events);
-    if (diagnosis.at("faults").empty()) add_verdict(diagnosis, events);
-  } catch (const std::exception&) {
-    throw Error(
-        ErrorCode::input, where,
-        std::string("is not a diagnosis (schema ") + kSchema + "); write one with faultline diagnose --json");
-  }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const LogEvent& a, const LogEvent& b) { return a.time_s < b.time_s; });
-  return events;
 }
 
 void write_recording(const std::string& path, LogSource& log, const Model& model,

@@ -12,10 +12,7 @@
 namespace faultline {
 
 /// Returns onset, alarm and end of each fault of a diagnosis in JSON, sorted by time; for a log without
-/// faults, its verdict. Throws Error(input) when the text is no such diagnosis; `where` names it.
-std::vector<LogEvent> events_of_diagnosis(const std::string& report, const std::string& where);
-
-/// Reads a file that was written by `diagnose --json`.
+/// faults, its verdict. Throws Error(input) when the file is no such diagnosis.
 std::vector<LogEvent> events_of_file(const std::string& path);
 
 /// Writes the diagnosed log as MCAP with the results of the diagnosis (docs/formats-mcap.md), by a further

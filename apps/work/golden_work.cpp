@@ -57,6 +57,15 @@ std::string item_named(const std::string& given, const GoldenCheck& check) {
                           fmt::join(names, ", ")));
 }
 
+/// Returns the names of the items that are wanted.
+template <typename Wanted>
+std::vector<std::string> item_names(const GoldenCheck& check, Wanted is_wanted) {
+  std::vector<std::string> names;
+  for (const CheckedItem& item : check.items)
+    if (is_wanted(item)) names.push_back(item.name);
+  return names;
+}
+
 GoldenCheck only(const GoldenCheck& check, const std::vector<std::string>& names) {
   GoldenCheck part = check;
   std::erase_if(part.items, [&](const CheckedItem& item) {
@@ -68,26 +77,9 @@ GoldenCheck only(const GoldenCheck& check, const std::vector<std::string>& names
 std::vector<std::string> named_items(const AcceptArguments& arguments, const GoldenCheck& check) {
   std::vector<std::string> names;
   for (const std::string& given : arguments.names) names.push_back(item_named(given, check));
-  if (arguments.names.empty())
-    for (const CheckedItem& item : check.items)
-      if (!arguments.same_verdict || !item.changes_verdict()) names.push_back(item.name);
-  return names;
-}
-
-/// Returns the named items that change; all with a new model, or if reasons were not recorded yet.
-std::vector<std::string> changing(const GoldenCheck& part, bool all) {
-  std::vector<std::string> names;
-  for (const CheckedItem& item : part.items)
-    if (all || !item.same()) names.push_back(item.name);
-  return names;
-}
-
-/// Returns, for --same-verdict, the items whose expected results stay because their verdict differs.
-std::vector<std::string> found_otherwise(const AcceptArguments& arguments, const GoldenCheck& check) {
-  std::vector<std::string> names;
-  for (const CheckedItem& item : check.items)
-    if (arguments.same_verdict && item.changes_verdict()) names.push_back(item.name);
-  return names;
+  if (!names.empty()) return names;
+  return item_names(
+      check, [&](const CheckedItem& item) { return !arguments.same_verdict || !item.changes_verdict(); });
 }
 
 /// Opens a log with the model's robot file.
@@ -156,8 +148,10 @@ AcceptPlan plan_accept(const AcceptArguments& arguments, const Progress& progres
   plan.run = golden_run(arguments, plan.set, plan.subject, progress);
   plan.check = check_golden(plan.set, plan.run);
   plan.part = only(plan.check, named_items(arguments, plan.check));
-  plan.otherwise = found_otherwise(arguments, plan.check);
-  plan.names = changing(plan.part, arguments.has_new_model());
+  plan.otherwise = item_names(
+      plan.check, [&](const CheckedItem& item) { return arguments.same_verdict && item.changes_verdict(); });
+  plan.names = item_names(plan.part,
+                          [&](const CheckedItem& item) { return arguments.has_new_model() || !item.same(); });
   return plan;
 }
 

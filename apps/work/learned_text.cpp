@@ -8,7 +8,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/work/learning.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/diagnose/blind_spots.hpp"
@@ -156,6 +155,14 @@ std::string warnings_text(const Learned& learned) {
   for (const std::string& doubt : learned.model.doubts) text += fmt::format("Doubtful: {}\n", doubt);
   if (!learned.model.doubts.empty()) text += "Each diagnosis with this model reports this.\n";
   return text.empty() ? text : "\n" + text;
+}
+
+nlohmann::ordered_json carried_json(const CarriedCases& carried) {
+  return {{"carried", carried.carried},
+          {"recomputed", carried.recomputed},
+          {"old_features", carried.old_features},
+          {"renumbered", carried.renumbered},
+          {"replaced", carried.replaced}};
 }
 
 std::string logs_text(const std::vector<ModelSource>& sources) {

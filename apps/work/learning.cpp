@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "lib/cases/case_file.hpp"
@@ -63,14 +62,6 @@ std::string carried_text(const std::optional<CarriedCases>& carried) {
     text += fmt::format(", {} marked and kept with the features of the earlier model", carried->old_features);
   if (carried->renumbered > 0) text += fmt::format(", {} under another number", carried->renumbered);
   return text + ".\n";
-}
-
-nlohmann::ordered_json carried_json(const CarriedCases& carried) {
-  return {{"carried", carried.carried},
-          {"recomputed", carried.recomputed},
-          {"old_features", carried.old_features},
-          {"renumbered", carried.renumbered},
-          {"replaced", carried.replaced}};
 }
 
 bool OpenLogs::add(const std::string& name, std::unique_ptr<LogSource> log,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +37,5 @@ std::optional<CarriedCases> write_model(const Model& model, CaseBase& cases, con
 
 /// Reports the fate of the existing cases in a sentence or two; empty if there were none.
 std::string carried_text(const std::optional<CarriedCases>& carried);
-nlohmann::ordered_json carried_json(const CarriedCases& carried);
 
 }  // namespace faultline

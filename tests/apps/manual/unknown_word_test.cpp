@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/manual/nearest_name.hpp"
+#include "apps/manual/unknown_word.hpp"
 
 #include <gtest/gtest.h>
 
