@@ -35,7 +35,7 @@ double viscous_part(double viscous, double dry, double top_speed) {
 std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const BalanceModel& model) {
   const ColumnLayout layout = model.layout();
   const Eigen::VectorXd& theta = model.theta;
-  const DayLayout day{layout.base, layout.joints};
+  const DayLayout day = day_layout(model);
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(rows.rows(), -1.0, 1.0);
   std::vector<Eigen::MatrixXd> out(layout.joints, Eigen::MatrixXd::Zero(rows.rows(), day.count()));
   for (int j = 0; j < layout.joints; ++j) {
@@ -55,6 +55,11 @@ std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const BalanceM
         theta[layout.coulomb(j)] * either_direction(rows.dq.col(j), model.setting.friction_width[j]);
     out[j].col(day.friction_width(j)) =
         theta[layout.coulomb(j)] * by_width(rows.dq.col(j), model.setting.friction_width[j]);
+  }
+  const int learned = layout.ripples - day.ripples;
+  for (int r = 0; r < day.ripples; ++r) {
+    const int j = model.setting.ripples[learned + r].joint;
+    out[j].middleCols<2>(day.ripple(r)) = rows.column[j].middleCols<2>(layout.ripple_sine(learned + r));
   }
   return out;
 }

@@ -22,6 +22,7 @@ struct BalanceModel {
   Eigen::MatrixXd payload;       ///< base parameters x links: change by 1 kg at the end of a link
   Eigen::VectorXd theta;         ///< see ColumnLayout
   Eigen::VectorXd day_variance;  ///< prior variance of the effects of a day, see DayLayout
+  int ripples_of_day = 0;  ///< the last ripples of `setting`: not learned, effects of the day of one log
   RowNoise noise;
   bool torque_is_measured = false;  ///< behind the drive, so that a loss of torque does not show
   double piece_kg = 0.0;            ///< mass of a work piece that comes and goes at the tip; 0: there is none
@@ -46,9 +47,9 @@ struct BalanceModel {
 /// parameter; then, for each joint, relative friction, its relative slope over the log, gain and offset of
 /// the torque, relative width of the friction's step at rest, relative excess of viscous over dry friction
 /// (see viscous_part), relative difference of dry friction by direction; then the delay of all torques,
-/// samples.
+/// samples; then sine and cosine of each ripple of the day, N m or N.
 struct DayLayout {
-  int base = 0, joints = 0;
+  int base = 0, joints = 0, ripples = 0;
 
   int inertia(int parameter) const { return parameter; }
   int friction(int joint) const { return base + joint; }
@@ -59,15 +60,16 @@ struct DayLayout {
   int viscous_excess(int joint) const { return base + 5 * joints + joint; }
   int direction(int joint) const { return base + 6 * joints + joint; }
   int delay() const { return base + 7 * joints; }
-  int count() const { return delay() + 1; }
+  int ripple(int k) const { return delay() + 1 + 2 * k; }
+  int count() const { return ripple(ripples); }
 };
-
-inline DayLayout day_layout(const RigidColumns& rigid) { return {rigid.base(), rigid.joints()}; }
 
 /// Returns the viscous part of a joint's friction at half its top speed, from 0 to 1. On a day whose viscous
 /// friction exceeds its dry friction by the share d, viscous friction is (1 - part) d more and dry friction
 /// part d less than the usual one, so that their sum at that speed is that of the usual day.
 double viscous_part(double viscous, double dry, double top_speed);
+
+inline DayLayout day_layout(const BalanceModel& m) { return {m.rigid.base(), m.joints(), m.ripples_of_day}; }
 
 /// Returns the columns of the effects of a day, by joint: rows x effects.
 std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const BalanceModel& model);

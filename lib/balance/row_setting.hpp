@@ -56,6 +56,7 @@ struct ColumnLayout {
   int delay(int joint) const { return base + 3 * joints + joint; }
   int spring(int joint) const { return base + 4 * joints + joint; }
   int ripple(int k) const { return base + 5 * joints + 4 * k; }  ///< four: sin and cos times torque, sin, cos
+  int ripple_sine(int k) const { return ripple(k) + 2; }         ///< sine alone, cosine alone
   int count() const { return ripple(ripples); }
   int rigid() const { return offset(0); }  ///< columns of inertia, gravity and friction, which come first
 };

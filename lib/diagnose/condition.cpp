@@ -21,12 +21,14 @@ const char* words_of(DayEffectKind kind) {
       return "drive torque";
     case DayEffectKind::torque_offset:
       return "torque offset";
+    case DayEffectKind::torque_ripple:
+      return "torque ripple";
   }
   return "";
 }
 
 ConditionItem item_of(const DayEffect& effect, const Chain& chain) {
-  const bool is_share = effect.kind != DayEffectKind::torque_offset;
+  const bool is_share = effect.kind == DayEffectKind::friction || effect.kind == DayEffectKind::torque_gain;
   const bool turns = chain.geometry[effect.joint - 1].kind == AxisKind::revolute;
   ConditionItem item;
   item.joint = effect.joint;

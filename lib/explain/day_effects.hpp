@@ -8,6 +8,7 @@ enum class DayEffectKind {
   friction,       ///< relative excess of a joint's friction over the identified one
   torque_gain,    ///< relative excess of the drive's torque over the logged one
   torque_offset,  ///< N m or N that the drive adds to the logged torque
+  torque_ripple,  ///< amplitude, N m or N, of a torque that repeats with the position of the joint
 };
 
 /// Returns the name for reports, such as "torque_gain".
@@ -19,6 +20,8 @@ inline const char* to_string(DayEffectKind kind) {
       return "torque_gain";
     case DayEffectKind::torque_offset:
       return "torque_offset";
+    case DayEffectKind::torque_ripple:
+      return "torque_ripple";
   }
   return "";
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "lib/explain/day_ripples.hpp"
 #include "lib/explain/fault_spans.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
@@ -31,9 +32,26 @@ struct NextFault {
   ExplainedLog rest{};       ///< explanation of the log beside the known faults
 };
 
-/// Returns the effects of the day for reports, if the model uses them: friction, gain and offset by joint.
+/// Returns the amplitude of the ripples of the day of joint `joint` (from 0); none if it has none.
+std::optional<DayEffect> ripple_effect(const LogFit& fit, int joint) {
+  const DayLayout at = day_layout(fit.model());
+  const std::vector<RippleRate>& all = fit.model().setting.ripples;
+  double square = 0.0, variance = 0.0;
+  for (int r = 0; r < at.ripples; ++r) {
+    if (all[all.size() - at.ripples + r].joint != joint) continue;
+    const auto sine_and_cosine = [&](const Eigen::VectorXd& of) { return of.segment<2>(at.ripple(r)); };
+    const double amplitude = sine_and_cosine(fit.healthy().day).squaredNorm();
+    square += amplitude;
+    variance += amplitude * sine_and_cosine(fit.healthy().day_std).cwiseAbs2().maxCoeff();
+  }
+  if (square == 0.0) return std::nullopt;
+  return DayEffect{DayEffectKind::torque_ripple, joint + 1, std::sqrt(square), std::sqrt(variance / square)};
+}
+
+/// Returns the effects of the day for reports, if the model uses them: friction, gain and offset by joint,
+/// and ripples.
 std::vector<DayEffect> effects_of(const LogFit& fit) {
-  const DayLayout at = day_layout(fit.model().rigid);
+  const DayLayout at = day_layout(fit.model());
   std::vector<DayEffect> out;
   const auto add = [&](DayEffectKind kind, int joint, int index, double sign) {
     if (fit.model().day_variance[index] > kNoEffect)
@@ -43,15 +61,8 @@ std::vector<DayEffect> effects_of(const LogFit& fit) {
   for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::friction, j, at.friction(j), 1.0);
   for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::torque_gain, j, at.gain(j), -1.0);
   for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::torque_offset, j, at.offset(j), -1.0);
-  return out;
-}
-
-/// Returns the standard deviation of the rows of each joint over that of the healthy logs' rows.
-std::vector<double> noise_levels(const LogFit& fit) {
-  std::vector<double> out;
   for (int j = 0; j < fit.joints(); ++j)
-    out.push_back(
-        std::sqrt(autocovariance(fit.noise().joint[j])[0] / autocovariance(fit.model().noise.joint[j])[0]));
+    if (const std::optional<DayEffect> ripple = ripple_effect(fit, j)) out.push_back(*ripple);
   return out;
 }
 
@@ -336,8 +347,15 @@ ExplainedLog explained_with_signals(const UniformLog& log, const BalanceModel& m
 ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
                             const std::vector<FaultClaim>& lasting, const SignalStretches& signals) {
   const std::vector<FaultClaim> before = followed(log, model, lasting), known = joined(before, signals.known);
-  ExplainedLog out = explained_beside(log, model, limits, known);
-  if (!signals.begin.empty()) out = explained_with_signals(log, model, limits, known, signals, out);
+  const auto explained = [&](const BalanceModel& day) {
+    ExplainedLog out = explained_beside(log, day, limits, known);
+    if (!signals.begin.empty()) out = explained_with_signals(log, day, limits, known, signals, out);
+    return out;
+  };
+  ExplainedLog out = explained(model);
+  const bool is_quiet = std::ranges::none_of(out.loudness, [](double level) { return level >= kLoud; });
+  if (!is_quiet || !out.faults.empty())
+    if (const auto rippled = with_ripples_of_day(log, model, known)) out = explained(*rippled);
   out.followed = before;
   return out;
 }

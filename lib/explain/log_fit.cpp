@@ -82,34 +82,17 @@ MatrixXd row_deviation(const BalanceRows& rows, const BalanceModel& model, const
   return (noise.array().square() + stop.array().square() + kModelShare * kModelShare * terms.array()).sqrt();
 }
 
-/// Estimates the noise of a log from its rows before any change (first_change()), for each joint for which it
-/// exceeds that of the healthy logs: a robot may have what no healthy log had, such as ripple or friction
-/// that depends on load, and residuals from the first row on are no evidence for a fault that begins later.
+/// Estimates the noise of a log from its calm_rows(), for each joint for which it exceeds that of the healthy
+/// logs: a robot may have what no healthy log had, such as friction that depends on load, and residuals from
+/// the first row on are no evidence for a fault that begins later.
 RowNoise own_noise(const LogFit& fit) {
-  const Change change = first_change(fit);
-  const Stacked torque = torque_without_piece(fit) - fit.day_torque(change.day);
-  const std::vector<bool> near = near_change(fit.first_path(), kRowsOfChange);
-  const double motion_s = first_motion_s(fit),
-               first_s = change.onset_s > motion_s - kJustBefore_s ? motion_s : fit.time_s()[0],
-               length_s = fit.time_s()[fit.count() - 1] - first_s;
-  const double until_s = std::max(change.onset_s - fit.model().setting.kernel_s,
-                                  first_s + std::min(kFirstStretch_s, kFirstStretch * length_s));
+  const CalmRows calm = calm_rows(fit);
   RowNoise out = fit.model().noise;
-  const int rows = fit.first_row(until_s), moving = std::min(rows, fit.first_row(first_s)),
-            changed = fit.first_row(change.onset_s);
   for (int j = 0; j < fit.joints(); ++j) {
     JointNoise& noise = out.joint[j];
-    const VectorXd std = fit.std().col(j);
-    VectorXd scaled = torque.segment(j * fit.count(), rows).cwiseQuotient(std.head(rows));
     const VectorXd usual = autocovariance(noise);
-    const double loudest = largest_noise(scaled.tail(rows - moving), std::sqrt(usual[0]));
-    double count = kRowsOfHealthyLogs;
-    for (int k = 0; k < rows; ++k) {
-      const bool is_fault = k >= changed && std::abs(scaled[k]) > loudest;
-      const bool counts = !is_fault && std[k] < kLost * std.minCoeff() && (near.empty() || !near[k]);
-      scaled[k] *= counts ? 1.0 : 0.0;
-      count += counts ? 1.0 : 0.0;
-    }
+    const VectorXd scaled = calm.torque.col(j).cwiseQuotient(fit.std().col(j).head(calm.torque.rows()));
+    const double count = kRowsOfHealthyLogs + static_cast<double>(calm.counts.col(j).count());
     const VectorXd own = (kRowsOfHealthyLogs * usual + lag_products(scaled, usual.size() - 1)) / count;
     if (own[0] > usual[0]) noise = with_autocovariance(std::move(noise), own);
   }
@@ -124,6 +107,33 @@ FaultColumns reading_column(const LogFit& fit, const FaultClaim& claim) {
 }
 
 }  // namespace
+
+CalmRows calm_rows(const LogFit& fit) {
+  const Change change = first_change(fit);
+  const Stacked torque = torque_without_piece(fit) - fit.day_torque(change.day);
+  const std::vector<bool> near = near_change(fit.first_path(), kRowsOfChange);
+  const double motion_s = first_motion_s(fit),
+               first_s = change.onset_s > motion_s - kJustBefore_s ? motion_s : fit.time_s()[0],
+               length_s = fit.time_s()[fit.count() - 1] - first_s;
+  const double until_s = std::max(change.onset_s - fit.model().setting.kernel_s,
+                                  first_s + std::min(kFirstStretch_s, kFirstStretch * length_s));
+  const int rows = fit.first_row(until_s), moving = std::min(rows, fit.first_row(first_s)),
+            changed = fit.first_row(change.onset_s);
+  CalmRows out{MatrixXd(rows, fit.joints()), JointMask(rows, fit.joints()), change.day};
+  for (int j = 0; j < fit.joints(); ++j) {
+    const VectorXd std = fit.std().col(j);
+    out.torque.col(j) = torque.segment(j * fit.count(), rows);
+    const VectorXd scaled = out.torque.col(j).cwiseQuotient(std.head(rows));
+    const double usual = std::sqrt(autocovariance(fit.model().noise.joint[j])[0]),
+                 loudest = largest_noise(scaled.tail(rows - moving), usual);
+    for (int k = 0; k < rows; ++k) {
+      const bool is_fault = k >= changed && std::abs(scaled[k]) > loudest;
+      out.counts(k, j) = !is_fault && std[k] < kLost * std.minCoeff() && (near.empty() || !near[k]);
+      if (!out.counts(k, j)) out.torque(k, j) = 0.0;
+    }
+  }
+  return out;
+}
 
 Stacked residual_without(const LogFit& fit, FaultClaim claim, double size) {
   claim.size = VectorXd::Constant(1, size);

@@ -26,7 +26,7 @@ void take_missed_torque(const BalanceModel& m, int joint, DayDifferences& out) {
   out.missed_memory_s[joint] = std::clamp(memory_s, kLeastMemory_s, kLongestMemory_s);
 }
 
-DayLayout day_layout_of(const BalanceModel& m) { return day_layout(m.rigid); }
+DayLayout day_layout_of(const BalanceModel& m) { return day_layout(m); }
 StepDayLayout day_layout_of(const OneStepModel& m) { return m.day_layout(); }
 
 int offset_at(const DayLayout& at, int joint) { return at.offset(joint); }

@@ -142,7 +142,7 @@ BalanceModel balance_from_json(const nlohmann::json& json, const std::string& wh
                m.longest_repeat.size(), m.repeat_share.size(), m.payload.cols(), m.stiction.size()});
   if (m.setting.fusion.size() > 0) check_sizes(where, n, {m.setting.fusion.size()});
   check_sizes(where, m.layout().count(), {m.theta.size()});
-  check_sizes(where, day_layout(m.rigid).count(), {m.day_variance.size()});
+  check_sizes(where, day_layout(m).count(), {m.day_variance.size()});
   check_sizes(where, m.rigid.base(), {m.payload.rows()});
   for (const RippleRate& ripple : m.setting.ripples)
     if (ripple.joint < 0 || ripple.joint >= n) refuse_damaged(where, "a ripple has no valid joint");

@@ -71,7 +71,7 @@ TEST(FitDays, TorquesOfSamplesThatAreAveragedActInTime) {
 }
 
 TEST(FitDays, TheFrictionOfADayIsAnEffectOfTheDay) {
-  const DayLayout day = day_layout(scara_model().rigid);
+  const DayLayout day = day_layout(scara_model());
   const LogFit fit = fit_of(simulate_closed_form(of_day(2), run_of(9)));
   for (int j = 0; j < 3; ++j) EXPECT_NEAR(fit.healthy().day[day.friction(j)], 0.04, 0.03) << j;
 }

@@ -55,7 +55,7 @@ TEST(StatedRanges, FrictionMayChangeWithinTheLogAsFarAsFromDayToDay) {
   NormalRange stated;
   stated.friction = 0.6;
   const auto wide = std::get<BalanceModel>(with_stated_ranges(learned, stated, {1.0, 1.0, 1.0}));
-  const DayLayout day = day_layout(learned.rigid);
+  const DayLayout day = day_layout(learned);
   for (int j = 0; j < 3; ++j)
     for (const int effect : {day.friction(j), day.friction_slope(j), day.viscous_excess(j)})
       EXPECT_NEAR(std::sqrt(wide.day_variance[effect]), 0.3, 1e-12) << effect;

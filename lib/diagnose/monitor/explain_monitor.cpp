@@ -41,6 +41,8 @@ bool is_break(const RowOf& before, const RowOf& after, double period_s) {
   return jumps >= kFewestJumps;
 }
 
+constexpr double kNormalRipple = 0.04;  // share of a joint's largest torque: ripple of a healthy drive
+
 /// Normal range of an effect by the robot file, or its default: share, N m or N.
 double stated_range(const DayEffect& effect, const Model& model) {
   const NormalRange& normal = model.robot.normal;
@@ -51,6 +53,8 @@ double stated_range(const DayEffect& effect, const Model& model) {
       return normal.torque_constant;
     case DayEffectKind::torque_offset:
       return normal.torque_offset * model.motion.torque_scale[effect.joint - 1];
+    case DayEffectKind::torque_ripple:
+      return kNormalRipple * model.motion.torque_scale[effect.joint - 1];
   }
   return 0.0;
 }
@@ -191,14 +195,18 @@ void ExplainMonitor::keep_from(double time_s) {
 }
 
 void ExplainMonitor::add_day(const std::vector<DayEffect>& day) {
-  if (day_.empty()) {
-    day_ = day;
-    for (DayEffect& sum : day_) sum.value = sum.std = 0.0;
-  }
-  for (std::size_t i = 0; i < day.size(); ++i) {
-    const double weight = 1.0 / (day[i].std * day[i].std);
-    day_[i].value += weight * day[i].value;
-    day_[i].std += weight;
+  for (const DayEffect& effect : day) {
+    auto sum = std::ranges::find_if(day_, [&](const DayEffect& other) {
+      return other.kind == effect.kind && other.joint == effect.joint;
+    });
+    if (sum == day_.end()) {
+      day_.push_back(effect);
+      sum = std::prev(day_.end());
+      sum->value = sum->std = 0.0;
+    }
+    const double weight = 1.0 / (effect.std * effect.std);
+    sum->value += weight * effect.value;
+    sum->std += weight;
   }
 }
 

@@ -232,7 +232,7 @@ std::vector<RobotWithoutDay> fit_without_each_day(const DayDraft& draft, const V
 }
 
 Eigen::VectorXd variance_of(const BalanceModel& model, const EffectStd& std) {
-  const DayLayout day = day_layout(model.rigid);
+  const DayLayout day = day_layout(model);
   Eigen::VectorXd out = Eigen::VectorXd::Constant(day.count(), std.inertia * std.inertia);
   out[day.delay()] = std.delay * std.delay;
   for (int j = 0; j < model.joints(); ++j) {
@@ -250,7 +250,7 @@ Eigen::VectorXd variance_of(const BalanceModel& model, const EffectStd& std) {
 
 /// Excludes gain and offset of a prismatic joint along gravity: they are not separable from a mass.
 Eigen::VectorXd without_doubles(const BalanceModel& model, Eigen::VectorXd variance) {
-  const DayLayout day = day_layout(model.rigid);
+  const DayLayout day = day_layout(model);
   for (int j = 0; j < model.joints(); ++j)
     if (carries_weight(model.rigid, j)) variance[day.gain(j)] = variance[day.offset(j)] = kNoEffect;
   return variance;

@@ -21,7 +21,7 @@ DayDraft with_day_columns(DayDraft draft) {
   const BalanceModel& m = draft.model;
   for (HealthyDay& day : draft.days) {
     day.day_column = day_columns(day.rows, m);
-    if (day.effect.size() == 0) day.effect.setZero(day_layout(m.rigid).count());
+    if (day.effect.size() == 0) day.effect.setZero(day_layout(m).count());
     day.tip = payload_torque(day.rows, m.payload, m.joints() - 1);
   }
   return draft;

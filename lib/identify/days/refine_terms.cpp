@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/balance/ripples.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/identify/days/healthy_day.hpp"
 
@@ -19,8 +20,9 @@ constexpr std::array kWidthFactors{.6, .75, .9, 1., 1.12, 1.3, 1.6};
 constexpr double kClearSpring = 20.0;  // nats, from rows that are not quite independent
 constexpr double kWidthRidge = 1e-12;  // for joints at rest
 
-constexpr double kLeastExplained = 0.05;  // of the squared residual: a ripple that explains less is rejected
-constexpr double kCut = 4.0;              // standard deviations at which a residual is cut
+/// Slower ripples look like gravity and inertia.
+constexpr RippleBounds kUsualRipples{
+    .form = RippleForm::constant_and_by_torque, .least_explained = 0.05, .least_waves = 20.0};
 
 /// Returns the rows of a day that determine the friction of joint `j`: neither lost nor near a change of the
 /// work piece, and the joint is not held by static friction.
@@ -62,66 +64,12 @@ double lowest_of_parabola(const std::array<double, 3>& x, const std::array<doubl
   return a == b ? x[1] : x[1] - 0.5 * ((x[1] - x[0]) * a - (x[1] - x[2]) * b) / (a - b);
 }
 
-/// Residual of one joint in the rows that count, with position, velocity and torque.
-struct Column {
-  std::vector<double> q, dq, torque, left;
-};
-
-Column column_of(const DayDraft& draft, int j) {
-  Column out;
+RippleRows rows_of_joint(const DayDraft& draft, int j) {
+  RippleRows out;
   for (const HealthyDay& day : draft.days) {
     const MatrixXd left = left_over(day, draft.model.theta);
-    for (const int k : rows_of_friction(day, draft.model, j)) {
-      out.q.push_back(day.rows.q(k, j));
-      out.dq.push_back(day.rows.dq(k, j));
-      out.torque.push_back(day.rows.torque(k, j));
-      out.left.push_back(left(k, j));
-    }
-  }
-  return out;
-}
-
-/// Subtracts the mean and cuts each value to kCut standard deviations.
-void centre_and_cut(std::vector<double>& values) {
-  Eigen::Map<Eigen::ArrayXd> v(values.data(), static_cast<Eigen::Index>(values.size()));
-  v -= v.mean();
-  const double most = kCut * std::sqrt(v.square().mean());
-  v = v.max(-most).min(most);
-}
-
-/// Returns the squared residual that a ripple of this rate explains; the kernel weakens fast ones.
-double explained(const Column& c, double rate, double kernel_s) {
-  Eigen::Matrix4d a = 1e-6 * Eigen::Matrix4d::Identity();
-  Eigen::Vector4d b = Eigen::Vector4d::Zero();
-  for (std::size_t k = 0; k < c.q.size(); ++k) {
-    const double slow = rate * c.dq[k] * kernel_s, gain = elementary::exp(-0.5 * slow * slow);
-    const auto [s, co] = elementary::sin_cos(rate * c.q[k]);
-    const Eigen::Vector4d x(gain * s * c.torque[k], gain * co * c.torque[k], gain * s, gain * co);
-    a += x * x.transpose();
-    b += c.left[k] * x;
-  }
-  return b.dot(a.ldlt().solve(b));
-}
-
-/// Returns, for each joint, the rate whose sine and cosine, alone and times the torque, explain most of its
-/// residual, if that is more than a twentieth.
-std::vector<RippleRate> find_ripples_in_rows(const DayDraft& draft) {
-  const BalanceModel& m = draft.model;
-  std::vector<RippleRate> out;
-  for (int j = 0; j < m.joints(); ++j) {
-    const double range = m.q_high[j] - m.q_low[j];
-    if (range <= 0.0) continue;
-    Column column = column_of(draft, j);
-    if (column.left.empty()) continue;
-    centre_and_cut(column.left);
-    double all = 0.0;
-    for (const double v : column.left) all += v * v;
-    double most = 0.0, best = 0.0;
-    for (double waves = 20.0; waves < 700.0; waves += 1.0) {
-      const double rate = waves / range, e = explained(column, rate, m.setting.kernel_s);
-      if (e > most) most = e, best = rate;
-    }
-    if (most > kLeastExplained * all) out.push_back({j, best});
+    for (const int k : rows_of_friction(day, draft.model, j))
+      out.add(day.rows.q(k, j), day.rows.dq(k, j), day.rows.torque(k, j), left(k, j));
   }
   return out;
 }
@@ -173,7 +121,11 @@ BalanceModel with_compliance(BalanceModel m) {
 
 DayDraft with_ripples(DayDraft draft) {
   BalanceModel& m = draft.model;
-  m.setting.ripples = find_ripples_in_rows(draft);
+  m.setting.ripples.clear();
+  for (int j = 0; j < m.joints(); ++j)
+    if (const auto rate = strongest_ripple(rows_of_joint(draft, j), m.setting.kernel_s,
+                                           m.q_high[j] - m.q_low[j], kUsualRipples))
+      m.setting.ripples.push_back({j, *rate});
   const VectorXd before = m.theta;
   m.theta.setZero(m.layout().count());
   m.theta.head(before.size()) = before;

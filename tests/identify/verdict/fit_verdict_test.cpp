@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "lib/identify/verdict/fit_verdict.hpp"
+
 #include <gtest/gtest.h>
 
 #include <map>
 #include <optional>
 #include <string>
-
-#include "lib/identify/verdict/fit_verdict.hpp"
 
 namespace faultline {
 namespace {
