@@ -134,6 +134,21 @@ std::vector<double> noise_levels(const LogFit& fit) {
   return out;
 }
 
+std::optional<DayEffect> ripple_of_day(const LogFit& fit, int joint) {
+  const DayLayout at = day_layout(fit.model());
+  const std::vector<RippleRate>& all = fit.model().setting.ripples;
+  double square = 0.0, variance = 0.0;
+  for (int r = 0; r < at.ripples; ++r) {
+    if (all[all.size() - at.ripples + r].joint != joint) continue;
+    const auto sine_and_cosine = [&](const VectorXd& of) { return of.segment<2>(at.ripple(r)); };
+    const double amplitude = sine_and_cosine(fit.healthy().day).squaredNorm();
+    square += amplitude;
+    variance += amplitude * sine_and_cosine(fit.healthy().day_std).cwiseAbs2().maxCoeff();
+  }
+  if (square == 0.0) return std::nullopt;
+  return DayEffect{DayEffectKind::torque_ripple, joint + 1, std::sqrt(square), std::sqrt(variance / square)};
+}
+
 std::optional<BalanceModel> with_ripples_of_day(const UniformLog& log, const BalanceModel& model,
                                                 const std::vector<FaultClaim>& known) {
   std::optional<BalanceModel> out;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "lib/explain/day_effects.hpp"
 #include "lib/explain/log_fit.hpp"
 
 namespace faultline {
@@ -18,5 +19,9 @@ inline constexpr double kLoud = 1.5;  ///< times the noise of the healthy logs: 
 /// noise of the healthy logs. Returns none if no ripple explains as much.
 std::optional<BalanceModel> with_ripples_of_day(const UniformLog& log, const BalanceModel& model,
                                                 const std::vector<FaultClaim>& known = {});
+
+/// Returns the amplitude of the ripples of the day of joint `joint` (from 0) as an effect for reports; none
+/// if it has none.
+std::optional<DayEffect> ripple_of_day(const LogFit& fit, int joint);
 
 }  // namespace faultline

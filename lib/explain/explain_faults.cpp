@@ -32,22 +32,6 @@ struct NextFault {
   ExplainedLog rest{};       ///< explanation of the log beside the known faults
 };
 
-/// Returns the amplitude of the ripples of the day of joint `joint` (from 0); none if it has none.
-std::optional<DayEffect> ripple_effect(const LogFit& fit, int joint) {
-  const DayLayout at = day_layout(fit.model());
-  const std::vector<RippleRate>& all = fit.model().setting.ripples;
-  double square = 0.0, variance = 0.0;
-  for (int r = 0; r < at.ripples; ++r) {
-    if (all[all.size() - at.ripples + r].joint != joint) continue;
-    const auto sine_and_cosine = [&](const Eigen::VectorXd& of) { return of.segment<2>(at.ripple(r)); };
-    const double amplitude = sine_and_cosine(fit.healthy().day).squaredNorm();
-    square += amplitude;
-    variance += amplitude * sine_and_cosine(fit.healthy().day_std).cwiseAbs2().maxCoeff();
-  }
-  if (square == 0.0) return std::nullopt;
-  return DayEffect{DayEffectKind::torque_ripple, joint + 1, std::sqrt(square), std::sqrt(variance / square)};
-}
-
 /// Returns the effects of the day for reports, if the model uses them: friction, gain and offset by joint,
 /// and ripples.
 std::vector<DayEffect> effects_of(const LogFit& fit) {
@@ -62,7 +46,7 @@ std::vector<DayEffect> effects_of(const LogFit& fit) {
   for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::torque_gain, j, at.gain(j), -1.0);
   for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::torque_offset, j, at.offset(j), -1.0);
   for (int j = 0; j < fit.joints(); ++j)
-    if (const std::optional<DayEffect> ripple = ripple_effect(fit, j)) out.push_back(*ripple);
+    if (const std::optional<DayEffect> ripple = ripple_of_day(fit, j)) out.push_back(*ripple);
   return out;
 }
 
