@@ -21,6 +21,7 @@ constexpr int kStretchRounds = 2;         // in which the stretches of other sig
 constexpr double kAsOne_s = 1.0;          // s between two onsets at one joint that count as one
 constexpr double kFirstShare = 0.3;       // share of the best evidence that each of these has, at least
 constexpr double kAlike = 0.4;            // least ratio of the sizes of two jumps of a belt that slips
+constexpr double kPriceOfRipple = 20.0;   // nats: of its rate, sine and cosine
 constexpr double kOppositeWithin = 0.3;   // share of a false reading's size by which its opposite may differ
 
 /// One step of the explanation: the faults that best explain the residuals of the known ones, best first.
@@ -326,6 +327,19 @@ ExplainedLog explained_with_signals(const UniformLog& log, const BalanceModel& m
   return out;
 }
 
+/// Returns the nats that robot, day and faults of known kinds leave of the log: half of each squared
+/// residual, whitened by the noise of the healthy logs; rows without weight count as noise.
+double left_beside(const UniformLog& log, const BalanceModel& model, const std::vector<FaultClaim>& known,
+                   const ExplainedLog& explained) {
+  std::vector<FaultClaim> claims = joined(known, balance_claims(explained.stretches));
+  for (const ExplainedFault& fault : explained.faults)
+    if (fault.claim.kind != FaultKind::unknown) claims.push_back(fault.claim);
+  const LogFit fit(log, model, std::move(claims), model.noise);
+  double out = 0.0;
+  for (const double z : fit.healthy().left) out += std::isnan(z) ? 0.5 : 0.5 * z * z;
+  return out;
+}
+
 }  // namespace
 
 ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
@@ -339,7 +353,12 @@ ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, co
   ExplainedLog out = explained(model);
   const bool is_quiet = std::ranges::none_of(out.loudness, [](double level) { return level >= kLoud; });
   if (!is_quiet || !out.faults.empty())
-    if (const auto rippled = with_ripples_of_day(log, model, known)) out = explained(*rippled);
+    if (const auto rippled = with_ripples_of_day(log, model, known)) {
+      ExplainedLog other = explained(*rippled);
+      const double price = kPriceOfRipple * rippled->ripples_of_day;
+      if (left_beside(log, *rippled, known, other) + price < left_beside(log, model, known, out))
+        out = std::move(other);
+    }
   out.followed = before;
   return out;
 }
