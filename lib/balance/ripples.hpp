@@ -29,7 +29,8 @@ struct RippleRows {
 };
 
 /// Returns the rate (1/rad or 1/m) of the ripple that explains most of the residual of a joint whose range is
-/// `range` (rad or m); none if it is not within the bounds or there are no rows.
+/// `range` (rad or m), in steps of 1 rad over that range; none if it is not within the bounds or there are no
+/// rows.
 std::optional<double> strongest_ripple(RippleRows rows, double kernel_s, double range,
                                        const RippleBounds& bounds);
 

@@ -24,11 +24,11 @@ RippleRows rippled(double rate, double amplitude) {
   return out;
 }
 
-TEST(Ripples, TheRateIsFoundBetweenTheStepsOfTheSearch) {
+TEST(Ripples, TheRateIsFoundToTheNearestStep) {
   for (const RippleForm form : {RippleForm::constant, RippleForm::constant_and_by_torque}) {
     const auto found = strongest_ripple(rippled(41.37, 0.5), kKernel_s, kRange, {form, 0.5, 20.0});
     ASSERT_TRUE(found);
-    EXPECT_NEAR(*found, 41.37, 0.02);
+    EXPECT_NEAR(*found, 41.37, 0.5 / kRange);
   }
 }
 
