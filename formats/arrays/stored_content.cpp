@@ -111,7 +111,7 @@ std::size_t ContentStream::unpack(char* to, std::size_t count) {
   return got;
 }
 
-/// Unpacks up to `count` of the next bytes that nobody needs; returns their number.
+/// Unpacks and discards up to `count` of the next bytes; returns their number.
 std::size_t ContentStream::pass(std::size_t count) {
   passed_.resize(kInputBytes);
   return unpack(passed_.data(), std::min(count, kInputBytes));
