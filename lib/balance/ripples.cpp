@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kMostWaves = 700.0;  // radians over the range of a joint: faster ripples are noise
 constexpr double kCut = 4.0;          // standard deviations at which a residual is cut
-constexpr int kRefinements = 12;  // steps of the golden section: they leave .3 % of the step of the search
 
 /// Subtracts the mean and cuts each value to kCut standard deviations.
 void centre_and_cut(std::vector<double>& values) {
@@ -53,9 +52,8 @@ std::optional<double> strongest_ripple(RippleRows rows, double kernel_s, double 
     if (e > most) most = e, best = waves / range;
   }
   if (!(most > bounds.least_explained * all)) return std::nullopt;
-  // In learning, a refined rate fits a faulty log among healthy ones so well that it is not doubted any more.
-  if (bounds.form == RippleForm::constant_and_by_torque) return best;
-  return golden_section(best - 1.0 / range, best + 1.0 / range, kRefinements,
+  if (bounds.refinements == 0) return best;
+  return golden_section(best - 1.0 / range, best + 1.0 / range, bounds.refinements,
                         [&](double rate) { return -explains(rate); });
 }
 

@@ -14,6 +14,7 @@ struct RippleBounds {
   RippleForm form = RippleForm::constant;
   double least_explained = 0.0;  ///< share of the joint's squared residual
   double least_waves = 0.0;      ///< radians of the ripple over the range of the joint
+  int refinements = 0;  ///< steps of the golden section that refine the rate between those of the search
 };
 
 /// Rows of one joint that count, in SI units: position, velocity, torque and residual torque.
@@ -29,8 +30,8 @@ struct RippleRows {
 };
 
 /// Returns the rate (1/rad or 1/m) of the ripple that explains most of the residual of a joint whose range is
-/// `range` (rad or m), in steps of 1 rad over that range; none if it is not within the bounds or there are no
-/// rows.
+/// `range` (rad or m), in steps of 1 rad over that range and as refined as the bounds ask for; none if it is
+/// not within the bounds or there are no rows.
 std::optional<double> strongest_ripple(RippleRows rows, double kernel_s, double range,
                                        const RippleBounds& bounds);
 

@@ -25,7 +25,11 @@ constexpr double kSamePhase = 0.01;     // rad: a ripple that moves less is sett
 constexpr double kMostly = 0.5;         // least share of the squared residual that a ripple explains
 constexpr double kLeastWaves = 20.0, kLeastWavesOfSlide = 10.0;  // radians over the range of the joint
 constexpr Eigen::Index kFewestCalm = 60;  // calm rows: with fewer a ripple resembles other errors
+constexpr int kRefinements = 12;          // of the rate: they leave .3 % of a step of the search
 constexpr double kRippleStd = 0.1;        // share of the torque rms: prior of sine and cosine
+
+/// Returns the index of ripple `r` of the day among all ripples of the model.
+std::size_t index_of(const BalanceModel& m, int r) { return m.setting.ripples.size() - m.ripples_of_day + r; }
 
 /// Residual torque of one joint beside the effects of the day, and the rows that count: the calm ones, and
 /// later ones with residuals up to a bound.
@@ -58,7 +62,10 @@ std::optional<double> ripple_of(const LogFit& fit, const CalmRows& calm, int joi
       rows.add(fit.rows().q(k, joint), fit.rows().dq(k, joint), fit.rows().torque(k, joint), of.torque[k]);
   const bool slides = m.rigid.chain.geometry[joint].kind == AxisKind::prismatic;
   return strongest_ripple(std::move(rows), m.setting.kernel_s, m.q_high[joint] - m.q_low[joint],
-                          {RippleForm::constant, kMostly, slides ? kLeastWavesOfSlide : kLeastWaves});
+                          {.form = RippleForm::constant,
+                           .least_explained = kMostly,
+                           .least_waves = slides ? kLeastWavesOfSlide : kLeastWaves,
+                           .refinements = kRefinements});
 }
 
 /// Returns the step of the rate of ripple `r` of the day by Gauss and Newton: of the phase at one end of the
@@ -67,7 +74,7 @@ std::optional<double> ripple_of(const LogFit& fit, const CalmRows& calm, int joi
 double phase_step(const LogFit& fit, const CalmRows& calm, int r) {
   const BalanceModel& m = fit.model();
   const DayLayout day = day_layout(m);
-  const RippleRate at = m.setting.ripples[m.setting.ripples.size() - day.ripples + r];
+  const RippleRate at = m.setting.ripples[index_of(m, r)];
   const double range = m.q_high[at.joint] - m.q_low[at.joint], step = kPhaseStep / range;
   RowSetting setting = m.setting;
   setting.ripples = {at, {at.joint, at.rate - step}, {at.joint, at.rate + step}};
@@ -110,7 +117,7 @@ std::optional<BalanceModel> improved(const LogFit& fit) {
   bool changes = false;
   for (int r = 0; r < fit.model().ripples_of_day; ++r) {
     const double step = phase_step(fit, calm, r);
-    RippleRate& ripple = out.setting.ripples[out.setting.ripples.size() - out.ripples_of_day + r];
+    RippleRate& ripple = out.setting.ripples[index_of(fit.model(), r)];
     ripple.rate += step / (out.q_high[ripple.joint] - out.q_low[ripple.joint]);
     changes = changes || std::abs(step) > kSamePhase;
   }
@@ -135,11 +142,11 @@ std::vector<double> noise_levels(const LogFit& fit) {
 }
 
 std::optional<DayEffect> ripple_of_day(const LogFit& fit, int joint) {
-  const DayLayout at = day_layout(fit.model());
-  const std::vector<RippleRate>& all = fit.model().setting.ripples;
+  const BalanceModel& m = fit.model();
+  const DayLayout at = day_layout(m);
   double square = 0.0, variance = 0.0;
   for (int r = 0; r < at.ripples; ++r) {
-    if (all[all.size() - at.ripples + r].joint != joint) continue;
+    if (m.setting.ripples[index_of(m, r)].joint != joint) continue;
     const auto sine_and_cosine = [&](const VectorXd& of) { return of.segment<2>(at.ripple(r)); };
     const double amplitude = sine_and_cosine(fit.healthy().day).squaredNorm();
     square += amplitude;

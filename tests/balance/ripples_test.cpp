@@ -24,6 +24,11 @@ RippleRows rippled(double rate, double amplitude) {
   return out;
 }
 
+TEST(Ripples, TheRateIsRefinedBetweenTheSteps) {
+  const RippleBounds bounds{.least_explained = 0.5, .least_waves = 20.0, .refinements = 12};
+  EXPECT_NEAR(strongest_ripple(rippled(41.37, 0.5), kKernel_s, kRange, bounds).value_or(0.0), 41.37, 0.02);
+}
+
 TEST(Ripples, TheRateIsFoundToTheNearestStep) {
   for (const RippleForm form : {RippleForm::constant, RippleForm::constant_and_by_torque}) {
     const auto found = strongest_ripple(rippled(41.37, 0.5), kKernel_s, kRange, {form, 0.5, 20.0});

@@ -20,7 +20,8 @@ constexpr std::array kWidthFactors{.6, .75, .9, 1., 1.12, 1.3, 1.6};
 constexpr double kClearSpring = 20.0;  // nats, from rows that are not quite independent
 constexpr double kWidthRidge = 1e-12;  // for joints at rest
 
-/// Slower ripples look like gravity and inertia.
+/// Slower ripples look like gravity and inertia. Refined rates would fit a faulty log among the healthy ones
+/// so well that it is not doubted any more.
 constexpr RippleBounds kUsualRipples{
     .form = RippleForm::constant_and_by_torque, .least_explained = 0.05, .least_waves = 20.0};
 
