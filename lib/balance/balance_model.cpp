@@ -42,7 +42,8 @@ std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const BalanceM
     const Eigen::MatrixXd& column = rows.column[j];
     out[j].leftCols(layout.base) = column.leftCols(layout.base) * theta.head(layout.base).asDiagonal();
     const Eigen::VectorXd viscous = column.col(layout.viscous(j)) * theta[layout.viscous(j)];
-    const Eigen::VectorXd friction = viscous + column.col(layout.coulomb(j)) * theta[layout.coulomb(j)];
+    const Eigen::VectorXd friction = viscous + column.col(layout.coulomb(j)) * theta[layout.coulomb(j)] +
+                                     column.col(layout.load(j)) * theta[layout.load(j)];
     out[j].col(day.friction(j)) = friction;
     out[j].col(day.viscous_excess(j)) =
         viscous -
@@ -50,6 +51,7 @@ std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const BalanceM
     out[j].col(day.friction_slope(j)) = friction.cwiseProduct(time);
     out[j].col(day.gain(j)) = column.leftCols(layout.delay(0)) * theta.head(layout.delay(0));
     out[j].col(day.offset(j)).setOnes();
+    out[j].col(day.load(j)) = column.col(layout.load(j));
     out[j].col(day.delay()) = column.col(layout.delay(j));
     out[j].col(day.direction(j)) =
         theta[layout.coulomb(j)] * either_direction(rows.dq.col(j), model.setting.friction_width[j]);

@@ -46,8 +46,9 @@ struct BalanceModel {
 /// Indices of the effects of a day (equation (2) of docs/how-it-works.md): relative change of each base
 /// parameter; then, for each joint, relative friction, its relative slope over the log, gain and offset of
 /// the torque, relative width of the friction's step at rest, relative excess of viscous over dry friction
-/// (see viscous_part), relative difference of dry friction by direction; then the delay of all torques,
-/// samples; then sine and cosine of each ripple of the day, N m or N.
+/// (see viscous_part), relative difference of dry friction by direction, friction by load as a share of the
+/// torque that is carried; then the delay of all torques, samples; then sine and cosine of each ripple of the
+/// day, N m or N.
 struct DayLayout {
   int base = 0, joints = 0, ripples = 0;
 
@@ -59,7 +60,8 @@ struct DayLayout {
   int friction_width(int joint) const { return base + 4 * joints + joint; }
   int viscous_excess(int joint) const { return base + 5 * joints + joint; }
   int direction(int joint) const { return base + 6 * joints + joint; }
-  int delay() const { return base + 7 * joints; }
+  int load(int joint) const { return base + 7 * joints + joint; }
+  int delay() const { return base + 8 * joints; }
   int ripple(int k) const { return delay() + 1 + 2 * k; }
   int count() const { return ripple(ripples); }
 };

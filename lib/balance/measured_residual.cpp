@@ -53,9 +53,10 @@ MatrixXd MeasuredResidual::of(const MeasuredMotion& moved, int joint, int first_
   const int from = first_row * grid.step;  // first sample within reach of the first row
   const VectorXd velocity = fused_velocity(moved, setting_, joint);
   const VectorXd q_middle = 0.5 * (moved.q.head(samples - 1) + moved.q.tail(samples - 1));
-  MatrixXd left = drive_.bottomRows(drive_.rows() - from);
-  left.col(joint) = drive(joint, link_speed(velocity, frame_.at.torque.col(joint), setting_, joint), q_middle)
-                        .tail(left.rows());
+  const VectorXd speed = link_speed(velocity, frame_.at.torque.col(joint), setting_, joint);
+  MatrixXd driving = drive_.bottomRows(drive_.rows() - from);
+  driving.col(joint) = drive(joint, speed, q_middle).tail(driving.rows());
+  MatrixXd left = driving;
   struct {
     JointVector momentum, force;
   } before, now;
@@ -70,7 +71,18 @@ MatrixXd MeasuredResidual::of(const MeasuredMotion& moved, int joint, int first_
               .transpose();
     std::swap(before, now);
   }
-  return smooth_at(left, frame_.kernel, grid.first, grid.step, grid.count - first_row);
+  const auto at_rows = [&](const MatrixXd& values) {
+    return smooth_at(values, frame_.kernel, grid.first, grid.step, grid.count - first_row);
+  };
+  MatrixXd out = at_rows(left);
+  for (int j = 0; j < layout_.joints; ++j) {
+    const double load = theta_[layout_.load(j)];
+    if (load == 0.0) continue;
+    const VectorXd own = j == joint ? speed : frame_.at.link_speed.col(j);
+    const MatrixXd turning = at_rows(saturated(own.tail(left.rows()), setting_.friction_width[j]));
+    out.col(j) -= load * at_rows(driving.col(j) - left.col(j)).cwiseAbs().cwiseProduct(turning);
+  }
+  return out;
 }
 
 }  // namespace faultline

@@ -45,17 +45,18 @@ struct RigidColumns {
   int base() const { return static_cast<int>(lift.cols()); }
 };
 
-/// Indices of the parameters of a robot in its columns: base, then friction, offset, delay and spring of each
-/// joint, then the ripples.
+/// Indices of the parameters of a robot in its columns: base, then friction (viscous, Coulomb, by load),
+/// offset, delay and spring of each joint, then the ripples.
 struct ColumnLayout {
   int base = 0, joints = 0, ripples = 0;
 
   int viscous(int joint) const { return base + joint; }
   int coulomb(int joint) const { return base + joints + joint; }
-  int offset(int joint) const { return base + 2 * joints + joint; }
-  int delay(int joint) const { return base + 3 * joints + joint; }
-  int spring(int joint) const { return base + 4 * joints + joint; }
-  int ripple(int k) const { return base + 5 * joints + 4 * k; }  ///< four: sin and cos times torque, sin, cos
+  int load(int joint) const { return base + 2 * joints + joint; }  ///< share of the torque that is carried
+  int offset(int joint) const { return base + 3 * joints + joint; }
+  int delay(int joint) const { return base + 4 * joints + joint; }
+  int spring(int joint) const { return base + 5 * joints + joint; }
+  int ripple(int k) const { return base + 6 * joints + 4 * k; }  ///< four: sin and cos times torque, sin, cos
   int ripple_sine(int k) const { return ripple(k) + 2; }         ///< sine alone, cosine alone
   int count() const { return ripple(ripples); }
   int rigid() const { return offset(0); }  ///< columns of inertia, gravity and friction, which come first

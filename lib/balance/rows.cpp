@@ -171,7 +171,13 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
   rows.time_s.resize(grid.count);
   for (int m = 0; m < grid.count; ++m) rows.time_s[m] = log.time_s(grid.first + m * grid.step + 0.5);
   rows.lost = crossing_lost(log.lost, grid, grid.first);
-  if (theta.size() > 0) add_spring_columns(setting, rigid, theta, at, kernel, grid, rows);
+  if (theta.size() == 0) return rows;
+  for (int j = 0; j < n; ++j) {
+    MatrixXd& column = rows.column[j];
+    const VectorXd carried = column.leftCols(layout.base) * theta.head(layout.base);
+    column.col(layout.load(j)) = carried.cwiseAbs().cwiseProduct(column.col(layout.coulomb(j)));
+  }
+  add_spring_columns(setting, rigid, theta, at, kernel, grid, rows);
   return rows;
 }
 

@@ -31,8 +31,8 @@ struct BalanceRows {
   bool rests(int row, int joint) const { return at_rest.size() > 0 && at_rest(row, joint); }
 };
 
-/// Returns the rows of one log. The spring columns take the inertia matrix from `theta`; if it is empty, they
-/// are zero. Throws Error(input) when the log is shorter than the kernels.
+/// Returns the rows of one log. The columns of springs and load friction take inertia and carried torque from
+/// `theta`; if it is empty, they are zero. Throws Error(input) when the log is shorter than the kernels.
 BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
                          const Eigen::VectorXd& theta);
 

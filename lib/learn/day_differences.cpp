@@ -32,6 +32,12 @@ StepDayLayout day_layout_of(const OneStepModel& m) { return m.day_layout(); }
 int offset_at(const DayLayout& at, int joint) { return at.offset(joint); }
 int offset_at(const StepDayLayout& at, int joint) { return at.force(joint); }
 
+/// Returns the share of the carried torque that the gear of a joint loses; one-step models have no such loss.
+double load_friction_of(const BalanceModel& m, int joint) {
+  return std::max(m.theta[m.layout().load(joint)], 0.0);
+}
+double load_friction_of(const OneStepModel&, int) { return 0.0; }
+
 /// Raises a variance to that of a range that the robot file states, scaled; `usual` is the default, which
 /// changes nothing.
 void widen(double range, double usual, double scale, double& variance) {
@@ -51,6 +57,9 @@ Identification with_friction_of(Identification identification, const Rows& model
     identification.estimate[space.log_width(j)] = elementary::log(width[j]);
     identification.robot.chain.friction[j].width = width[j];
   }
+  for (int k = space.extra_begin(); k < space.timing(); ++k)
+    if (const ExtraTerm& term = space.extra_at(k); term.kind == ExtraKind::load_friction)
+      identification.estimate[k] = load_friction_of(model, term.joint);
   return identification;
 }
 

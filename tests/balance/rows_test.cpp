@@ -78,6 +78,7 @@ TEST(BalanceRows, TheResidualOfATrajectoryIsThatOfItsColumns) {
   theta.segment(layout.ripple(0), 4) << 0.01, -0.02, 0.1, 0.2;
   theta[layout.offset(2)] = 0.3;
   theta[layout.delay(0)] = 0.4;
+  theta[layout.load(0)] = 0.05, theta[layout.load(1)] = 0.08;
   const UniformLog log = log_of(run);
   const BalanceRows rows = balance_rows(log, setting, rigid, theta);
   const MeasuredResidual residual(log, setting, rigid, theta);

@@ -30,13 +30,17 @@ inline ClosedFormScara of_day(int day) {
   return out;
 }
 
-inline FittedDays learned_from(const std::vector<Log>& days) {
+inline Robot scara_robot() {
+  Robot robot = preset_robot("RRP");
+  robot.chain.length = {1.0, 0.8, 0.0};
+  return robot;
+}
+
+inline FittedDays learned_from(const std::vector<Log>& days, const Robot& robot = scara_robot()) {
   std::vector<MemorySource> sources;
   for (const Log& day : days) sources.emplace_back(day, "day");
   std::vector<LogSource*> logs;
   for (MemorySource& source : sources) logs.push_back(&source);
-  Robot robot = preset_robot("RRP");
-  robot.chain.length = {1.0, 0.8, 0.0};
   return fit_days(logs, parameter_space(robot), TorqueTiming::held);
 }
 

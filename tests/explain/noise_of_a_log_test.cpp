@@ -37,6 +37,17 @@ TEST(ExplainLog, WhatALogLeavesFromItsFirstRowOnIsItsNoise) {
   EXPECT_FALSE(decided(fit));
 }
 
+TEST(ExplainLog, LoadFrictionThatNoHealthyLogHadIsAnEffectOfTheDay) {
+  testing::ClosedFormScara scara = of_day(0);
+  scara.load = {0.05, 0.05, 0.05};
+  const LogFit fit = fit_of(simulate_closed_form(scara, run_of(33)));
+  const DayLayout day = day_layout(fit.model());
+  for (int j = 0; j < 2; ++j) {
+    EXPECT_NEAR(fit.healthy().day[day.load(j)], 0.05, 0.01) << j;
+    EXPECT_LT(fit.noise().joint[j].innovation, 2.0 * scara_model().noise.joint[j].innovation) << j;
+  }
+}
+
 TEST(ExplainLog, AFaultThatBeginsSoonAfterTheFirstMotionIsNoNoise) {
   Log log = simulate_closed_form(of_day(0), run_of(27));
   for (int k = 0; k < log.rows(); ++k)

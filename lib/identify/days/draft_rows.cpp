@@ -127,7 +127,7 @@ std::vector<bool> rigid_columns_used(const RigidColumns& rigid, const ColumnLayo
   std::vector<bool> used(layout.count(), true);
   for (int j = 0; j < layout.joints; ++j) {
     used[layout.offset(j)] = !carries_weight(rigid, j);
-    used[layout.spring(j)] = false;
+    used[layout.load(j)] = used[layout.spring(j)] = false;
   }
   for (int r = layout.ripple(0); r < layout.count(); ++r) used[r] = false;
   for (int p = 0; p < layout.base; ++p)

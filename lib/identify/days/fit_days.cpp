@@ -37,16 +37,16 @@ constexpr double kUnseenDays = 2.0;  // times the variance between the logged da
 /// Standard deviations of the effects: relative, but the offset as a share of the joint's torque rms and the
 /// delay in samples.
 struct EffectStd {
-  double inertia, friction, slope, gain, offset, width, viscous, direction, delay;
+  double inertia, friction, slope, gain, offset, width, viscous, direction, load, delay;
 };
 
 // First: differences of robots from day to day. Least: differences that change no decision. Unseen:
 // differences that a few days cannot show (friction by the warmth of the gear, inertia and torque constants
 // by manufacture, friction near rest, where healthy logs have few rows, viscous friction, which warmth
-// changes more than dry friction).
-constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1, 0.1, 0.03, 0.1};
-constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02, 0.01, 3e-3, 0.01};
-constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.05, 0.03, 0.3};
+// changes more than dry friction, and the loss of a gear by the torque that it carries).
+constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1, 0.1, 0.03, 0.01, 0.1};
+constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02, 0.01, 3e-3, 1e-3, 0.01};
+constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.05, 0.03, 0.02, 0.3};
 
 /// Returns the model with ranges, top speeds, noise and repeated positions of the healthy logs.
 BalanceModel with_healthy_motion(const std::vector<UniformLog>& logs, BalanceModel m) {
@@ -66,7 +66,7 @@ BalanceModel with_healthy_motion(const std::vector<UniformLog>& logs, BalanceMod
   return m;
 }
 
-/// Returns rows, setting and a first fit of the rigid robot.
+/// Returns rows, setting and a first fit of the rigid robot. Load friction is used where `space` has it.
 DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& space,
                      TorqueTiming torque_between_samples) {
   const bool is_held = torque_between_samples == TorqueTiming::held;
@@ -98,6 +98,8 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   m.theta = plain_fit(rows, m.layout(), draft.used, m.torque_rms);
   for (int j = 0; j < m.joints(); ++j)
     draft.used[m.layout().spring(j)] = m.rigid.chain.geometry[j].kind == AxisKind::revolute;
+  for (const ExtraTerm& term : space.extra)
+    if (term.kind == ExtraKind::load_friction) draft.used[m.layout().load(term.joint)] = true;
   return draft;
 }
 
@@ -243,6 +245,7 @@ Eigen::VectorXd variance_of(const BalanceModel& model, const EffectStd& std) {
     out[day.offset(j)] = offset * offset;
     out[day.friction_width(j)] = std.width * std.width;
     out[day.direction(j)] = std.direction * std.direction;
+    out[day.load(j)] = std.load * std.load;
     out[day.viscous_excess(j)] = std.viscous * std.viscous;
   }
   return out;

@@ -108,6 +108,21 @@ TEST(FitDays, ACoarseEncoderDoesNotMakeTheInertiaSmaller) {
   EXPECT_NEAR(model.theta[model.layout().coulomb(0)], 3.0, 0.1);
 }
 
+TEST(FitDays, LoadFrictionIsEstimatedWhereTheIdentificationHasIt) {
+  std::vector<Log> days;
+  for (int day = 0; day < 3; ++day) {
+    testing::ClosedFormScara scara = testing::of_day(day);
+    scara.load = {0.06, 0.0, 0.04};
+    days.push_back(simulate_closed_form(scara, testing::run_of(day + 1)));
+  }
+  Robot robot = testing::scara_robot();
+  robot.chain.friction[0].load = robot.chain.friction[2].load = 0.1;
+  const BalanceModel model = testing::learned_from(days, robot).model;
+  EXPECT_NEAR(model.theta[model.layout().load(0)], 0.06, 0.005);
+  EXPECT_EQ(model.theta[model.layout().load(1)], 0.0);
+  EXPECT_NEAR(model.theta[model.layout().load(2)], 0.04, 0.005);
+}
+
 TEST(DraftSetting, AVelocityWithoutNoiseGivesAFiniteVelocity) {
   UniformLog log = testing::on_grid(testing::simulate_closed_form(testing::of_day(0), testing::run_of(1)));
   log.dq_noise.setZero();
