@@ -50,6 +50,9 @@ std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const BalanceM
         viscous_part(theta[layout.viscous(j)], theta[layout.coulomb(j)], model.top_speed[j]) * friction;
     out[j].col(day.friction_slope(j)) = friction.cwiseProduct(time);
     out[j].col(day.gain(j)) = column.leftCols(layout.delay(0)) * theta.head(layout.delay(0));
+    for (int d = 0; d < day.drives; ++d)
+      out[j].col(day.drive_friction(d)) =
+          column.middleCols<2>(layout.drive(d) + 1) * theta.segment<2>(layout.drive(d) + 1);
     out[j].col(day.offset(j)).setOnes();
     out[j].col(day.load(j)) = column.col(layout.load(j));
     out[j].col(day.delay()) = column.col(layout.delay(j));

@@ -47,10 +47,10 @@ struct BalanceModel {
 /// parameter; then, for each joint, relative friction, its relative slope over the log, gain and offset of
 /// the torque, relative width of the friction's step at rest, relative excess of viscous over dry friction
 /// (see viscous_part), relative difference of dry friction by direction, friction by load as a share of the
-/// torque that is carried; then the delay of all torques, samples; then sine and cosine of each ripple of the
-/// day, N m or N.
+/// torque that is carried; then the delay of all torques, samples; then relative friction of each coupled
+/// drive; then sine and cosine of each ripple of the day, N m or N.
 struct DayLayout {
-  int base = 0, joints = 0, ripples = 0;
+  int base = 0, joints = 0, drives = 0, ripples = 0;
 
   int inertia(int parameter) const { return parameter; }
   int friction(int joint) const { return base + joint; }
@@ -62,7 +62,8 @@ struct DayLayout {
   int direction(int joint) const { return base + 6 * joints + joint; }
   int load(int joint) const { return base + 7 * joints + joint; }
   int delay() const { return base + 8 * joints; }
-  int ripple(int k) const { return delay() + 1 + 2 * k; }
+  int drive_friction(int k) const { return delay() + 1 + k; }
+  int ripple(int k) const { return drive_friction(drives) + 2 * k; }
   int count() const { return ripple(ripples); }
 };
 
@@ -71,7 +72,9 @@ struct DayLayout {
 /// part d less than the usual one, so that their sum at that speed is that of the usual day.
 double viscous_part(double viscous, double dry, double top_speed);
 
-inline DayLayout day_layout(const BalanceModel& m) { return {m.rigid.base(), m.joints(), m.ripples_of_day}; }
+inline DayLayout day_layout(const BalanceModel& m) {
+  return {m.rigid.base(), m.joints(), static_cast<int>(m.setting.drives.size()), m.ripples_of_day};
+}
 
 /// Returns the columns of the effects of a day, by joint: rows x effects.
 std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const BalanceModel& model);

@@ -56,7 +56,7 @@ MatrixXd MeasuredResidual::of(const MeasuredMotion& moved, int joint, int first_
   const VectorXd speed = link_speed(velocity, frame_.at.torque.col(joint), setting_, joint);
   MatrixXd driving = drive_.bottomRows(drive_.rows() - from);
   driving.col(joint) = drive(joint, speed, q_middle).tail(driving.rows());
-  MatrixXd left = driving;
+  MatrixXd carried(driving.rows(), driving.cols());
   struct {
     JointVector momentum, force;
   } before, now;
@@ -66,7 +66,7 @@ MatrixXd MeasuredResidual::of(const MeasuredMotion& moved, int joint, int first_
     dq[joint] = velocity[k];
     dynamics_.momentum_and_force(q, dq, now.momentum, now.force);
     if (k > from)
-      left.row(k - 1 - from) -=
+      carried.row(k - 1 - from) =
           ((now.momentum - before.momentum) / setting_.period_s - 0.5 * (now.force + before.force))
               .transpose();
     std::swap(before, now);
@@ -74,13 +74,24 @@ MatrixXd MeasuredResidual::of(const MeasuredMotion& moved, int joint, int first_
   const auto at_rows = [&](const MatrixXd& values) {
     return smooth_at(values, frame_.kernel, grid.first, grid.step, grid.count - first_row);
   };
+  MatrixXd left = driving - carried, velocities, speeds;
+  if (layout_.drives > 0) {
+    velocities = frame_.at.velocity, speeds = frame_.at.link_speed;
+    velocities.col(joint) = velocity, speeds.col(joint) = speed;
+  }
+  for (int d = 0; d < layout_.drives; ++d) {
+    const CoupledDrive& drive = setting_.drives[d];
+    const VectorXd torque =
+        drive_columns(drive, velocities, speeds, setting_.period_s) * theta_.segment<3>(layout_.drive(d));
+    left -= torque.tail(left.rows()) * drive.along.transpose();
+  }
   MatrixXd out = at_rows(left);
   for (int j = 0; j < layout_.joints; ++j) {
     const double load = theta_[layout_.load(j)];
     if (load == 0.0) continue;
     const VectorXd own = j == joint ? speed : frame_.at.link_speed.col(j);
-    const MatrixXd turning = at_rows(saturated(own.tail(left.rows()), setting_.friction_width[j]));
-    out.col(j) -= load * at_rows(driving.col(j) - left.col(j)).cwiseAbs().cwiseProduct(turning);
+    const MatrixXd turning = at_rows(saturated(own.tail(carried.rows()), setting_.friction_width[j]));
+    out.col(j) -= load * at_rows(carried.col(j)).cwiseAbs().cwiseProduct(turning);
   }
   return out;
 }

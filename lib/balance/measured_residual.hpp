@@ -21,8 +21,8 @@ class MeasuredResidual {
   Eigen::MatrixXd of(const MeasuredMotion& moved, int joint, int first_row = 0) const;
 
  private:
-  /// Returns the torque of joint `joint` minus its friction, but that by load, offset, delay and ripple, by
-  /// interval.
+  /// Returns the torque of joint `joint` minus its friction, but that by load and that of coupled drives,
+  /// offset, delay and ripple, by interval.
   Eigen::VectorXd drive(int joint, const Eigen::VectorXd& speed, const Eigen::VectorXd& q) const;
 
   RowSetting setting_;

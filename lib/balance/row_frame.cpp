@@ -84,6 +84,15 @@ VectorXd link_speed(const VectorXd& velocity, const VectorXd& torque, const RowS
   return out;
 }
 
+Eigen::MatrixX3d drive_columns(const CoupledDrive& drive, const MatrixXd& velocity, const MatrixXd& speed,
+                               double period_s) {
+  const VectorXd turning = velocity * drive.along, own = speed * drive.along;
+  const Index n = own.size();
+  Eigen::MatrixX3d out(n, 3);
+  out << (turning.tail(n) - turning.head(n)) / period_s, own, saturated(own, drive.friction_width);
+  return out;
+}
+
 VectorXd saturated(const VectorXd& speed, double width) {
   return speed.unaryExpr([width](double v) { return elementary::tanh(v / width); });
 }

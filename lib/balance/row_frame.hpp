@@ -40,6 +40,11 @@ Eigen::VectorXd link_speed(const Eigen::VectorXd& velocity, const Eigen::VectorX
 /// the logged velocity at high ones.
 Eigen::VectorXd fused_velocity(const MeasuredMotion& reading, const RowSetting& setting, int joint);
 
+/// Returns what inertia, viscous and Coulomb friction of a coupled drive take of the drive's torque, by
+/// interval: intervals x 3. `velocity` is that of each sample, `speed` that of the links, by joint.
+Eigen::MatrixX3d drive_columns(const CoupledDrive& drive, const Eigen::MatrixXd& velocity,
+                               const Eigen::MatrixXd& speed, double period_s);
+
 /// tanh(speed / width).
 Eigen::VectorXd saturated(const Eigen::VectorXd& speed, double width);
 

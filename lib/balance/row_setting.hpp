@@ -14,6 +14,12 @@ struct RippleRate {
   double rate = 0.0;  ///< 1/rad or 1/m
 };
 
+/// A drive that turns at a weighted sum of the joints' speeds, such as the last motor of many wrists.
+struct CoupledDrive {
+  Eigen::VectorXd along;        ///< weight of each joint's speed
+  double friction_width = 0.0;  ///< rad/s or m/s of tanh(speed / width)
+};
+
 /// Settings of the torque-balance rows of a robot; the same for all its logs.
 struct RowSetting {
   double period_s = 0.0;        ///< of the samples
@@ -28,6 +34,7 @@ struct RowSetting {
   Eigen::VectorXd fusion;
   Eigen::VectorXd friction_width;  ///< by joint: rad/s or m/s of tanh(dq / width)
   Eigen::VectorXd compliance;      ///< by joint: of the gear spring, rad per N m or m per N; 0: rigid
+  std::vector<CoupledDrive> drives;
   std::vector<RippleRate> ripples;
 
   int joints() const { return static_cast<int>(friction_width.size()); }
@@ -46,9 +53,9 @@ struct RigidColumns {
 };
 
 /// Indices of the parameters of a robot in its columns: base, then friction (viscous, Coulomb, by load),
-/// offset, delay and spring of each joint, then the ripples.
+/// offset, delay and spring of each joint, then the coupled drives, then the ripples.
 struct ColumnLayout {
-  int base = 0, joints = 0, ripples = 0;
+  int base = 0, joints = 0, drives = 0, ripples = 0;
 
   int viscous(int joint) const { return base + joint; }
   int coulomb(int joint) const { return base + joints + joint; }
@@ -56,14 +63,16 @@ struct ColumnLayout {
   int offset(int joint) const { return base + 3 * joints + joint; }
   int delay(int joint) const { return base + 4 * joints + joint; }
   int spring(int joint) const { return base + 5 * joints + joint; }
-  int ripple(int k) const { return base + 6 * joints + 4 * k; }  ///< four: sin and cos times torque, sin, cos
-  int ripple_sine(int k) const { return ripple(k) + 2; }         ///< sine alone, cosine alone
+  int drive(int k) const { return base + 6 * joints + 3 * k; }  ///< three: inertia, viscous, Coulomb friction
+  int ripple(int k) const { return drive(drives) + 4 * k; }     ///< four: sin and cos times torque, sin, cos
+  int ripple_sine(int k) const { return ripple(k) + 2; }        ///< sine alone, cosine alone
   int count() const { return ripple(ripples); }
   int rigid() const { return offset(0); }  ///< columns of inertia, gravity and friction, which come first
 };
 
 inline ColumnLayout layout_of(const RigidColumns& rigid, const RowSetting& setting) {
-  return {rigid.base(), rigid.joints(), static_cast<int>(setting.ripples.size())};
+  return {rigid.base(), rigid.joints(), static_cast<int>(setting.drives.size()),
+          static_cast<int>(setting.ripples.size())};
 }
 
 }  // namespace faultline

@@ -165,6 +165,11 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
     column.col(layout.offset(j)).setConstant(kernel.sum());
     column.col(layout.delay(j)) = -at_rows(at.torque_step.col(j));
   }
+  for (int d = 0; d < layout.drives; ++d) {
+    const CoupledDrive& drive = setting.drives[d];
+    const MatrixXd columns = at_rows(drive_columns(drive, at.velocity, at.link_speed, setting.period_s));
+    for (int j = 0; j < n; ++j) rows.column[j].middleCols<3>(layout.drive(d)) = drive.along[j] * columns;
+  }
   for (int r = 0; r < layout.ripples; ++r)
     rows.column[setting.ripples[r].joint].middleCols<4>(layout.ripple(r)) =
         at_rows(ripple_columns(setting.ripples[r], at));

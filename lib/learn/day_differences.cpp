@@ -32,11 +32,19 @@ StepDayLayout day_layout_of(const OneStepModel& m) { return m.day_layout(); }
 int offset_at(const DayLayout& at, int joint) { return at.offset(joint); }
 int offset_at(const StepDayLayout& at, int joint) { return at.force(joint); }
 
-/// Returns the share of the carried torque that the gear of a joint loses; one-step models have no such loss.
-double load_friction_of(const BalanceModel& m, int joint) {
-  return std::max(m.theta[m.layout().load(joint)], 0.0);
+/// Returns an extra friction of the model, not negative; `estimate` if it is none. One-step models have no
+/// friction by load.
+double extra_friction(const BalanceModel& m, const ExtraTerm& term, double estimate) {
+  const ColumnLayout at = m.layout();
+  const auto positive = [&](int column) { return std::max(m.theta[column], 0.0); };
+  if (term.kind == ExtraKind::load_friction) return positive(at.load(term.joint));
+  if (term.kind == ExtraKind::shared_viscous) return positive(at.drive(term.index) + 1);
+  if (term.kind == ExtraKind::shared_coulomb) return positive(at.drive(term.index) + 2);
+  return estimate;
 }
-double load_friction_of(const OneStepModel&, int) { return 0.0; }
+double extra_friction(const OneStepModel&, const ExtraTerm& term, double estimate) {
+  return term.kind == ExtraKind::load_friction ? 0.0 : estimate;
+}
 
 /// Raises a variance to that of a range that the robot file states, scaled; `usual` is the default, which
 /// changes nothing.
@@ -58,8 +66,7 @@ Identification with_friction_of(Identification identification, const Rows& model
     identification.robot.chain.friction[j].width = width[j];
   }
   for (int k = space.extra_begin(); k < space.timing(); ++k)
-    if (const ExtraTerm& term = space.extra_at(k); term.kind == ExtraKind::load_friction)
-      identification.estimate[k] = load_friction_of(model, term.joint);
+    identification.estimate[k] = extra_friction(model, space.extra_at(k), identification.estimate[k]);
   return identification;
 }
 

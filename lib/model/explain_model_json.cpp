@@ -54,6 +54,11 @@ void fields(auto& v, MaybeConst<RigidColumns> auto& rigid) {
   v("lift", rigid.lift);
 }
 
+void fields(auto& v, MaybeConst<CoupledDrive> auto& drive) {
+  v("along", drive.along);
+  v("friction_width", drive.friction_width);
+}
+
 void fields(auto& v, MaybeConst<RowSetting> auto& s) {
   v("period_s", s.period_s);
   v("averaged", s.averaged);
@@ -65,6 +70,7 @@ void fields(auto& v, MaybeConst<RowSetting> auto& s) {
   v("fusion", s.fusion);
   v("friction_width", s.friction_width);
   v("compliance", s.compliance);
+  v("drives", s.drives);
 }
 
 void fields(auto& v, MaybeConst<StepSetting> auto& s) {
@@ -144,6 +150,7 @@ BalanceModel balance_from_json(const nlohmann::json& json, const std::string& wh
   check_sizes(where, m.layout().count(), {m.theta.size()});
   check_sizes(where, day_layout(m).count(), {m.day_variance.size()});
   check_sizes(where, m.rigid.base(), {m.payload.rows()});
+  for (const CoupledDrive& drive : m.setting.drives) check_sizes(where, n, {drive.along.size()});
   for (const RippleRate& ripple : m.setting.ripples)
     if (ripple.joint < 0 || ripple.joint >= n) refuse_damaged(where, "a ripple has no valid joint");
   if (m.setting.decimation < 1) refuse_damaged(where, "its rows lie less than a sample apart");

@@ -72,12 +72,14 @@ TEST(BalanceRows, TheResidualOfATrajectoryIsThatOfItsColumns) {
   const ClosedFormRun run{.period_s = 0.002};
   RowSetting setting = setting_for(run.period_s);
   setting.ripples = {{1, 40.0}};
+  setting.drives = {{Eigen::Vector3d(1.0, 1.0, 0.0), 0.03}};
   const RigidColumns rigid = scara_columns();
   Eigen::VectorXd theta = truth({}, layout_of(rigid, setting));
   const ColumnLayout layout = layout_of(rigid, setting);
   theta.segment(layout.ripple(0), 4) << 0.01, -0.02, 0.1, 0.2;
   theta[layout.offset(2)] = 0.3;
   theta[layout.delay(0)] = 0.4;
+  theta.segment(layout.drive(0), 3) << 0.05, 0.3, 0.4;
   theta[layout.load(0)] = 0.05, theta[layout.load(1)] = 0.08;
   const UniformLog log = log_of(run);
   const BalanceRows rows = balance_rows(log, setting, rigid, theta);

@@ -129,7 +129,7 @@ std::vector<bool> rigid_columns_used(const RigidColumns& rigid, const ColumnLayo
     used[layout.offset(j)] = !carries_weight(rigid, j);
     used[layout.load(j)] = used[layout.spring(j)] = false;
   }
-  for (int r = layout.ripple(0); r < layout.count(); ++r) used[r] = false;
+  for (int p = layout.drive(0); p < layout.count(); ++p) used[p] = false;
   for (int p = 0; p < layout.base; ++p)
     if (is_rotor(rigid, p)) used[p] = false;
   return used;

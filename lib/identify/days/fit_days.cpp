@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "lib/balance/rest.hpp"
@@ -66,7 +67,17 @@ BalanceModel with_healthy_motion(const std::vector<UniformLog>& logs, BalanceMod
   return m;
 }
 
-/// Returns rows, setting and a first fit of the rigid robot. Load friction is used where `space` has it.
+/// Returns the column of an extra term of the robot; none if the rows look for such terms themselves.
+std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout) {
+  if (term.kind == ExtraKind::load_friction) return layout.load(term.joint);
+  if (term.kind == ExtraKind::shared_inertia) return layout.drive(term.index);
+  if (term.kind == ExtraKind::shared_viscous) return layout.drive(term.index) + 1;
+  if (term.kind == ExtraKind::shared_coulomb) return layout.drive(term.index) + 2;
+  return std::nullopt;
+}
+
+/// Returns rows, setting and a first fit of the rigid robot. Load friction and coupled drives are used where
+/// `space` has them.
 DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& space,
                      TorqueTiming torque_between_samples) {
   const bool is_held = torque_between_samples == TorqueTiming::held;
@@ -84,6 +95,8 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
     if (derived[j]) m.setting.fusion[j] = 0.0;
   m.setting.torque_is_held = is_held;
   m.setting.averaged = scale.averaged;
+  for (const SharedDrive& drive : space.chain.shared_drives)
+    m.setting.drives.push_back({drive.along, drive.width});
   for (const UniformLog& log : uniform) draft.days.push_back({.log = log});
   m = with_healthy_motion(uniform, std::move(m));
   m.stiction = VectorXd::Zero(m.joints());
@@ -99,7 +112,7 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   for (int j = 0; j < m.joints(); ++j)
     draft.used[m.layout().spring(j)] = m.rigid.chain.geometry[j].kind == AxisKind::revolute;
   for (const ExtraTerm& term : space.extra)
-    if (term.kind == ExtraKind::load_friction) draft.used[m.layout().load(term.joint)] = true;
+    if (const auto column = column_of(term, m.layout())) draft.used[*column] = true;
   return draft;
 }
 
@@ -237,6 +250,7 @@ Eigen::VectorXd variance_of(const BalanceModel& model, const EffectStd& std) {
   const DayLayout day = day_layout(model);
   Eigen::VectorXd out = Eigen::VectorXd::Constant(day.count(), std.inertia * std.inertia);
   out[day.delay()] = std.delay * std.delay;
+  for (int d = 0; d < day.drives; ++d) out[day.drive_friction(d)] = std.friction * std.friction;
   for (int j = 0; j < model.joints(); ++j) {
     const double offset = std.offset * model.torque_rms[j];
     out[day.friction(j)] = std.friction * std.friction;

@@ -123,6 +123,23 @@ TEST(FitDays, LoadFrictionIsEstimatedWhereTheIdentificationHasIt) {
   EXPECT_NEAR(model.theta[model.layout().load(2)], 0.04, 0.005);
 }
 
+TEST(FitDays, ACoupledDriveHasItsFriction) {
+  std::vector<Log> days;
+  for (int day = 0; day < 3; ++day) {
+    testing::ClosedFormScara scara = testing::of_day(day);
+    scara.shared_fv = 0.4, scara.shared_fc = 0.8;
+    days.push_back(simulate_closed_form(scara, testing::run_of(day + 1)));
+  }
+  Robot robot = testing::scara_robot();
+  robot.chain.shared_drives = {
+      {.along = Eigen::Vector3d(1.0, 1.0, 0.0), .viscous = 0.1, .coulomb = 0.1, .width = 0.02}};
+  const BalanceModel model = testing::learned_from(days, robot).model;
+  const int drive = model.layout().drive(0);
+  EXPECT_NEAR(model.theta[drive + 1], 0.4, 0.05);
+  EXPECT_NEAR(model.theta[drive + 2], 0.8, 0.05);
+  EXPECT_NEAR(model.theta[model.layout().coulomb(1)], 0.4, 0.05);
+}
+
 TEST(DraftSetting, AVelocityWithoutNoiseGivesAFiniteVelocity) {
   UniformLog log = testing::on_grid(testing::simulate_closed_form(testing::of_day(0), testing::run_of(1)));
   log.dq_noise.setZero();
