@@ -20,7 +20,7 @@
 #include "lib/diagnose/monitor/monitor.hpp"
 #include "lib/diagnose/question/check_interpretation.hpp"
 #include "lib/diagnose/question/find_column_change.hpp"
-#include "lib/diagnose/relation/relation_findings.hpp"
+#include "lib/diagnose/relation_findings.hpp"
 #include "lib/diagnose/verdict.hpp"
 #include "lib/log/recorder/corrected_source.hpp"
 #include "lib/model/model_files.hpp"

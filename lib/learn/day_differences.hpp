@@ -5,7 +5,7 @@
 
 #include "lib/explain/explain_log.hpp"
 #include "lib/identify/identification.hpp"
-#include "lib/learn/twin/twin.hpp"
+#include "lib/learn/twin.hpp"
 #include "lib/robot/normal_range.hpp"
 
 namespace faultline {

@@ -11,7 +11,7 @@
 #include "lib/core/progress.hpp"
 #include "lib/diagnose/monitor/monitored_log.hpp"
 #include "lib/explain/least_found.hpp"
-#include "lib/learn/twin/twin.hpp"
+#include "lib/learn/twin.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {

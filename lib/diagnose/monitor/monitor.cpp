@@ -11,7 +11,7 @@
 #include "lib/diagnose/monitor/explain_monitor.hpp"
 #include "lib/diagnose/monitor/log_tally.hpp"
 #include "lib/diagnose/monitor/monitored_log.hpp"
-#include "lib/diagnose/relation/relation_findings.hpp"
+#include "lib/diagnose/relation_findings.hpp"
 #include "lib/explain/explain_at.hpp"
 #include "lib/log/log.hpp"
 #include "lib/log/transformed/changed_source.hpp"

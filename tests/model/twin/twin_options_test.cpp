@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
-#include "lib/learn/twin/twin_draw.hpp"
+#include "lib/learn/twin.hpp"
 
 namespace faultline {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "lib/diagnose/relation/relation_findings.hpp"
+#include "lib/diagnose/relation_findings.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {

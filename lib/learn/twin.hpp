@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "lib/core/random.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/identify/usual_motion.hpp"
 #include "lib/model/twin/twin_options.hpp"
@@ -51,5 +52,10 @@ double twin_run_length_s(const Twin& twin);
 /// the range and about the speed of its logs, controller and fault size at random, noise as measured. The
 /// same seed gives the same run.
 TwinRun twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed);
+
+/// Draws the faults of a run: the requested one, and for a kind that passes possibly a second push at another
+/// joint.
+std::vector<SimulatedFault> draw_faults(const Twin& twin, const FaultLabel& label, double onset_s,
+                                        Random& random);
 
 }  // namespace faultline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/diagnose/relation/relation_findings.hpp"
+#include "lib/diagnose/relation_findings.hpp"
 
 #include <gtest/gtest.h>
 

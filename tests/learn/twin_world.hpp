@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/learn/twin/twin.hpp"
+#include "lib/learn/twin.hpp"
 #include "tests/support/hand_made_motion.hpp"
 
 namespace faultline {

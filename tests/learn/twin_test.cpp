@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/learn/twin/twin.hpp"
+#include "lib/learn/twin.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/learn/twin/twin_world.hpp"
+#include "tests/learn/twin_world.hpp"
 
 namespace faultline {
 namespace {
