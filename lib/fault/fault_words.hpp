@@ -21,8 +21,4 @@ std::string next_check_for(const FaultLabel& label);
 /// without such words. `sizes` as in the catalogue, at a joint that turns or slides.
 std::string size_text(const FaultLabel& label, const std::array<double, kMostSizes>& sizes, bool turns);
 
-/// Returns why two faults are hard to distinguish on a joint log; empty if they are not known to be alike
-/// (for the pairs see the observability of rigid-body joint logs, docs/report.md).
-std::string why_alike(const FaultLabel& a, const FaultLabel& b);
-
 }  // namespace faultline

@@ -27,15 +27,5 @@ TEST(FaultWords, ALoadIsOfALinkAndEveryOtherFaultOfAJoint) {
   EXPECT_EQ(plain_words({FaultKind::locked, 2}), "joint 2 is locked");
 }
 
-TEST(FaultWords, LikenessGoesBothWaysAndKnowsJoints) {
-  const FaultLabel locked{FaultKind::locked, 3}, stuck{FaultKind::stuck_encoder, 3},
-      other{FaultKind::stuck_encoder, 1};
-  EXPECT_NE(why_alike(locked, stuck), "");
-  EXPECT_EQ(why_alike(locked, stuck), why_alike(stuck, locked));
-  EXPECT_EQ(why_alike(locked, other), "");
-  EXPECT_NE(why_alike({FaultKind::payload_change, 0}, {FaultKind::torque_loss, 3}), "");
-  EXPECT_NE(why_alike({FaultKind::payload_change, 2}, {FaultKind::payload_change, 3}), "");
-}
-
 }  // namespace
 }  // namespace faultline
