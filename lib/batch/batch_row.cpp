@@ -89,7 +89,7 @@ BatchRow row_of(const Diagnosis& d) {
     row.residual_rms.push_back(residual.velocity_rms);
     row.residual_peak.push_back(residual.velocity_peak);
   }
-  row.faults = events_of(d.faults);
+  for (const FaultFinding& fault : d.faults) row.faults.push_back(event_of(fault));
   for (const ConditionItem& item : d.condition)
     if (item.is_determined())
       row.condition.push_back({item.name, item.value, (item.ci95[1] - item.value) / kNormal95, item.unit});

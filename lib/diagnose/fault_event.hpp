@@ -3,9 +3,7 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
 #include "lib/core/number_text.hpp"
 #include "lib/diagnose/diagnosis.hpp"
@@ -22,6 +20,10 @@ struct FaultEvent {
   int run = 0;                  ///< as FaultFinding::run
   double clock_offset_s = 0.0;  ///< as FaultFinding::clock_offset_s
 };
+
+inline FaultEvent event_of(const FaultFinding& f) {
+  return {f.label, f.onset_s, f.alarm_s, f.end_s, f.confidence, f.run, f.clock_offset_s};
+}
 
 /// Formats a time of a fault: "12.345 s", in a log with several runs "12.345 s (1.234 s on its clock)".
 /// `Fault` is a FaultEvent or a FaultFinding.
@@ -41,15 +43,5 @@ std::string onset_words(const Fault& fault, double sample_period_s) {
   return onset + " (run " + std::to_string(fault.run) + ", " +
          time_text(fault.onset_s - fault.clock_offset_s, sample_period_s) + " on its clock)";
 }
-
-FaultEvent event_of(const FaultFinding& finding);
-/// Converts each finding, in the same order.
-std::vector<FaultEvent> events_of(const std::vector<FaultFinding>& findings);
-
-/// Writes an event, with null for a number that is not finite and for the joint of a fault without a joint.
-nlohmann::ordered_json to_json(const FaultEvent& event);
-/// Reads an event. Throws nlohmann::json::exception when a key is missing or of another type, Error for an
-/// unknown kind.
-FaultEvent fault_event_from_json(const nlohmann::ordered_json& json);
 
 }  // namespace faultline

@@ -92,7 +92,7 @@ std::vector<std::string> least_size_sentences(const Model& model) {
     const FaultSize& size = describe(label.kind).sizes().back();
     const bool is_first = label.kind != kind;
     kind = label.kind;
-    if (is_first) text += fmt::format("{}{}:", text.empty() ? "" : "; ", plain_name(kind));
+    if (is_first) text += fmt::format("{}{}:", text.empty() ? "" : "; ", describe(kind).heading);
     text += fmt::format("{} joint {} {}", is_first ? "" : ",", label.joint,
                         amount_text(least_size_of(label, size, model), unit_at(label, size, model)));
   }

@@ -7,8 +7,6 @@
 
 namespace faultline {
 
-const char* plain_name(FaultKind kind) { return describe(kind).heading; }
-
 std::string plain_words(const FaultLabel& label) {
   if (label.joint <= 0) return describe(label.kind).heading;
   const FaultDescription& fault = describe(label.kind);

@@ -8,9 +8,6 @@
 
 namespace faultline {
 
-/// Returns the kind in words of a technician, such as "free-swinging joint (no torque)".
-const char* plain_name(FaultKind kind);
-
 /// Returns kind and joint in words, such as "joint 2 swings freely (no torque)" or "unknown fault".
 std::string plain_words(const FaultLabel& label);
 

@@ -4,18 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
+#include "lib/diagnose/fault_event_fields.hpp"
 
 namespace faultline {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
+FaultEvent from_text(const std::string& text) { return fields_from_json<FaultEvent>(Json::parse(text), ""); }
+
 TEST(FaultEvent, ComesBackFromItsJsonAsItWas) {
   const FaultEvent event{{FaultKind::locked, 2}, 0.1 + 0.2, 1763710000.073, NAN, 0.75};
-  const FaultEvent read = fault_event_from_json(Json::parse(to_json(event).dump()));
+  const FaultEvent read = from_text(fields_to_json<Json>(event).dump());
   EXPECT_EQ(read.label, event.label);
   EXPECT_EQ(read.onset_s, event.onset_s);
   EXPECT_EQ(read.alarm_s, event.alarm_s);
@@ -25,7 +27,7 @@ TEST(FaultEvent, ComesBackFromItsJsonAsItWas) {
 
 TEST(FaultEvent, OfALogWithRunsKeepsItsRunAndSaysTheTimeOnThatRunsClock) {
   const FaultEvent event{{FaultKind::locked, 2}, 12.5, 12.6, 14.0, 0.75, 2, 10.25};
-  const FaultEvent read = fault_event_from_json(Json::parse(to_json(event).dump()));
+  const FaultEvent read = from_text(fields_to_json<Json>(event).dump());
   EXPECT_EQ(read.run, 2);
   EXPECT_EQ(read.clock_offset_s, 10.25);
   EXPECT_EQ(onset_words(read, 0.01), "12.500 s (run 2, 2.250 s on its clock)");
@@ -36,31 +38,29 @@ TEST(FaultEvent, OfALogWithRunsKeepsItsRunAndSaysTheTimeOnThatRunsClock) {
 }
 
 TEST(FaultEvent, OfNoJointHasNullForIt) {
-  const Json json = to_json(FaultEvent{{FaultKind::unknown, 0}, 1.0, 1.5, INFINITY, 0.5});
+  const Json json = fields_to_json<Json>(FaultEvent{{FaultKind::unknown, 0}, 1.0, 1.5, INFINITY, 0.5});
   EXPECT_EQ(json.dump(),
             R"({"kind":"unknown","joint":null,"onset_s":1.0,"alarm_s":1.5,"end_s":null,"confidence":0.5})");
-  EXPECT_EQ(fault_event_from_json(json).label.joint, 0);
+  EXPECT_EQ(fields_from_json<FaultEvent>(json, "").label.joint, 0);
 }
 
 TEST(FaultEvent, IncompleteOrUnknownIsRefused) {
-  Json json = to_json(FaultEvent{{FaultKind::locked, 1}, 1.0, 1.0, 2.0, 0.9});
+  Json json = fields_to_json<Json>(FaultEvent{{FaultKind::locked, 1}, 1.0, 1.0, 2.0, 0.9});
   json["kind"] = "loked";
-  EXPECT_THROW(fault_event_from_json(json), Error);
+  EXPECT_THROW(fields_from_json<FaultEvent>(json, ""), Error);
   json.erase("kind");
-  EXPECT_THROW(fault_event_from_json(json), nlohmann::json::exception);
+  EXPECT_THROW(fields_from_json<FaultEvent>(json, ""), nlohmann::json::exception);
 }
 
-TEST(FaultEvent, FindingsBecomeEventsInTheirOrder) {
-  FaultFinding first, second;
-  first.label = {FaultKind::collision, 1};
-  first.onset_s = 3.0;
-  second.label = {FaultKind::locked, 2};
-  second.confidence = 0.9;
-  const std::vector<FaultEvent> events = events_of({first, second});
-  ASSERT_EQ(events.size(), 2u);
-  EXPECT_EQ(events[0].label, first.label);
-  EXPECT_EQ(events[0].onset_s, 3.0);
-  EXPECT_EQ(events[1].confidence, 0.9);
+TEST(FaultEvent, OfAFindingHasItsLabelTimesAndConfidence) {
+  FaultFinding finding;
+  finding.label = {FaultKind::locked, 2};
+  finding.onset_s = 3.0;
+  finding.confidence = 0.9;
+  const FaultEvent event = event_of(finding);
+  EXPECT_EQ(event.label, finding.label);
+  EXPECT_EQ(event.onset_s, 3.0);
+  EXPECT_EQ(event.confidence, 0.9);
 }
 
 }  // namespace

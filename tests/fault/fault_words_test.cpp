@@ -12,7 +12,7 @@ TEST(FaultWords, EveryKindHasItsOwnWordsAndCheck) {
   std::set<std::string> names, checks;
   for (int kind = 0; kind < kFaultKinds; ++kind) {
     const FaultLabel label{static_cast<FaultKind>(kind), 3};
-    names.insert(plain_name(label.kind));
+    names.insert(describe(label.kind).heading);
     checks.insert(next_check_for(label));
     const char* place = label.kind == FaultKind::payload_change ? "link 3 " : "joint 3 ";
     EXPECT_EQ(plain_words(label).rfind(place, 0), 0u) << plain_words(label);
