@@ -103,23 +103,26 @@ LogSource& settle_log(LogSource& log, const LogRate& rate, const Model& model, I
   return judged;
 }
 
-/// Sets the run in which each fault began, and its clock offset, if the log has several runs.
-void name_runs(Diagnosis& diagnosis) {
-  if (diagnosis.log.runs.size() < 2) return;
-  for (FaultFinding& fault : diagnosis.faults)
-    for (const LogRun& run : diagnosis.log.runs)
+/// Returns the faults with the run in which each began, and its clock offset, if the log has several runs.
+std::vector<FaultFinding> with_runs(std::vector<FaultFinding> faults, const std::vector<LogRun>& runs) {
+  if (runs.size() < 2) return faults;
+  for (FaultFinding& fault : faults)
+    for (const LogRun& run : runs)
       if (run.is_read && (fault.run == 0 || run.start_s <= fault.onset_s)) {
         fault.run = run.run;
         fault.clock_offset_s = run.clock_offset_s;
       }
+  return faults;
 }
 
-/// Ends each fault with the run in which it began: if the next run shows it, it is found there again.
-void end_with_run(const std::vector<LogRun>& runs, std::vector<FaultFinding>& faults) {
+/// Returns the faults, each ended with the run in which it began: if the next run shows it, it is found there
+/// again.
+std::vector<FaultFinding> ended_with_run(std::vector<FaultFinding> faults, const std::vector<LogRun>& runs) {
   for (FaultFinding& fault : faults)
     for (const LogRun& run : runs)
       if (run.is_read && run.start_s <= fault.onset_s && fault.onset_s <= run.end_s)
         fault.end_s = std::min(fault.end_s, run.end_s);
+  return faults;
 }
 
 /// Whether faults of known kinds explain nearly all of a log's excess over the noise. A change of columns
@@ -151,13 +154,15 @@ void check_column_change(LogSource& judged, bool has_log_rows, const Model& mode
               row, change->at_s, 1});
 }
 
-/// Makes a healthy verdict inconclusive if a joint could not be compared with a reference.
-void require_tracking(const std::vector<int>& joints, Diagnosis& diagnosis) {
-  if (diagnosis.verdict != Verdict::healthy || joints.empty()) return;
+/// Returns the diagnosis, in which a healthy verdict is inconclusive if `joints`, which could not be compared
+/// with a reference, are not empty.
+Diagnosis without_untracked(Diagnosis diagnosis, const std::vector<int>& joints) {
+  if (diagnosis.verdict != Verdict::healthy || joints.empty()) return diagnosis;
   diagnosis.verdict = Verdict::inconclusive;
   diagnosis.verdict_reason = fmt::format(
       "joint {} could not be compared with a reference in this log; the other joints follow their references",
       joints.front());
+  return diagnosis;
 }
 
 }  // namespace
@@ -173,7 +178,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   std::vector<FaultFinding> faults = found_in(run, model, cases);
   if (can_check_columns(model) && !run.log.is_tracked && !are_explained(run.episodes))
     check_column_change(judged, &judged == &log, model, faults, doubts);
-  end_with_run(run.log.runs, faults);
+  faults = ended_with_run(std::move(faults), run.log.runs);
   Diagnosis diagnosis;
   diagnosis.log = run.log;
   diagnosis.log.issues.merge(doubts);
@@ -187,11 +192,11 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.roughness = run.roughness;
   diagnosis.judged_share = run.judged_share;
   diagnosis.cannot_see = unseen_by(run, model);
-  settle_verdict(diagnosis, faults, model.sample_period_s, power_of(model.validation));
+  diagnosis = with_verdict(std::move(diagnosis), faults, model.sample_period_s, power_of(model.validation));
   if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;
-  name_runs(diagnosis);
-  if (run.log.is_tracked) require_tracking(joints_not_tracked(model, run.relations_judged_s), diagnosis);
-  return diagnosis;
+  diagnosis.faults = with_runs(std::move(diagnosis.faults), diagnosis.log.runs);
+  if (!run.log.is_tracked) return diagnosis;
+  return without_untracked(std::move(diagnosis), joints_not_tracked(model, run.relations_judged_s));
 }
 
 }  // namespace faultline

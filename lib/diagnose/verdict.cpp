@@ -25,7 +25,6 @@ constexpr double kLeastPower = 0.5;   // share of simulated faults found: below 
 constexpr double kFarBeyond = 3.0;    // normal ranges: beyond them the robot is not healthy any more
 constexpr double kWild = 150.0;  // times healthy: the largest residual of healthy logs stays below half of it
 constexpr double kRough = 3.0;   // times the noise of the learned logs: a fault may be hidden
-constexpr double kVerdictPercent = 100.0;
 constexpr std::int64_t kFewestUsableRows = 20;  // usable rows: with fewer a robot cannot be judged
 constexpr double kFewestJudged = 0.75;    // share of the log: with less a healthy verdict is not possible
 constexpr double kFewestJudgeable = 0.2;  // share of the rows: below it a log is inconclusive
@@ -100,7 +99,7 @@ std::string why_little_judged(double judged_share) {
   return fmt::format(
       "no fault was found, but the regression could use only {:.0f} % of the log: it needs some seconds of "
       "complete rows in succession, and rows or cells are missing too often, or the log is too short",
-      kVerdictPercent * judged_share);
+      100.0 * judged_share);
 }
 
 /// States that a log without motion cannot be called healthy; empty if a joint moves.
@@ -139,7 +138,7 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
     return fmt::format(
         "no fault was found, but the model finds only {:.0f} % of simulated faults; learn a model from "
         "healthy logs that resemble each other more",
-        kVerdictPercent * power);
+        100.0 * power);
   if (const std::string rough = why_too_rough(diagnosis.roughness); !rough.empty()) return rough;
   if (const std::string wild = why_large_residual(diagnosis.residuals); !wild.empty()) return wild;
   const std::string far = beyond_normal(diagnosis.condition, kFarBeyond);
@@ -253,39 +252,40 @@ std::vector<FaultFinding> numbered_by_onset(std::vector<FaultFinding> faults) {
   return faults;
 }
 
-void settle_verdict(Diagnosis& diagnosis, const std::vector<FaultFinding>& faults, double model_period_s,
-                    double power) {
+Diagnosis with_verdict(Diagnosis diagnosis, const std::vector<FaultFinding>& faults, double model_period_s,
+                       double power) {
+  diagnosis.verdict = Verdict::inconclusive;
   diagnosis.verdict_reason = why_inconclusive(diagnosis.log, model_period_s);
   if (!diagnosis.verdict_reason.empty()) {
-    diagnosis.verdict = Verdict::inconclusive;
     diagnosis.condition.clear();
-    return;
+    return diagnosis;
   }
   FaultsBySize by_size = faults_by_size(faults);
   diagnosis.small_changes = std::move(by_size.small);
-  diagnosis.faults = numbered_by_onset(merge_continued(std::move(by_size.kept)));
-  if (const Issue* scaled = diagnosis.log.issues.find(kScaledMotion); scaled && !diagnosis.faults.empty()) {
-    diagnosis.verdict = Verdict::inconclusive;
+  std::vector<FaultFinding> found = numbered_by_onset(merge_continued(std::move(by_size.kept)));
+  const Issue* scaled = diagnosis.log.issues.find(kScaledMotion);
+  if (scaled && !found.empty()) {
     diagnosis.verdict_reason = "the deviations may come from the log itself: " + scaled->message;
-    diagnosis.faults.clear();
-    return;
+    return diagnosis;
   }
-  const std::size_t count = diagnosis.faults.size();
-  if (const std::string doubt = count == 0 ? why_not_healthy(diagnosis, power) : ""; !doubt.empty()) {
-    diagnosis.verdict = Verdict::inconclusive;
-    diagnosis.verdict_reason = doubt;
-    return;
+  if (!found.empty()) {
+    diagnosis.verdict = Verdict::faulty;
+    diagnosis.verdict_reason = counted(std::ssize(found), "fault") + " found";
+    diagnosis.faults = std::move(found);
+    return diagnosis;
   }
-  diagnosis.verdict = count > 0 ? Verdict::faulty : Verdict::healthy;
-  const std::string healthy = diagnosis.log.is_tracked
-                                  ? "every joint that is judged follows its reference"
-                                  : "the identified robot explains " + judged_part(diagnosis.log);
-  diagnosis.verdict_reason = count > 0 ? counted(static_cast<long long>(count), "fault") + " found" : healthy;
-  if (const std::string beyond = beyond_normal(diagnosis.condition); count == 0 && !beyond.empty())
+  diagnosis.verdict_reason = why_not_healthy(diagnosis, power);
+  if (!diagnosis.verdict_reason.empty()) return diagnosis;
+  diagnosis.verdict = Verdict::healthy;
+  diagnosis.verdict_reason = diagnosis.log.is_tracked
+                                 ? "every joint that is judged follows its reference"
+                                 : "the identified robot explains " + judged_part(diagnosis.log);
+  if (const std::string beyond = beyond_normal(diagnosis.condition); !beyond.empty())
     diagnosis.verdict_reason += "; beyond its normal range: " + beyond;
-  if (const std::size_t small = diagnosis.small_changes.size(); count == 0 && small > 0)
-    diagnosis.verdict_reason += "; " + counted(static_cast<long long>(small), "change") +
+  if (!diagnosis.small_changes.empty())
+    diagnosis.verdict_reason += "; " + counted(std::ssize(diagnosis.small_changes), "change") +
                                 " found, too small to be reported as a fault";
+  return diagnosis;
 }
 
 }  // namespace faultline

@@ -19,11 +19,11 @@ std::vector<FaultFinding> merge_continued(std::vector<FaultFinding> faults);
 /// Returns the findings by onset (then alarm, then joint), unknown times last, with ids from 1.
 std::vector<FaultFinding> numbered_by_onset(std::vector<FaultFinding> faults);
 
-/// Sets the verdict on a log with its reason, and the faults, merged and numbered: none if the log cannot be
-/// judged. `model_period_s` is the usual sample period of the logs that the model was learned from, `power`
-/// the share of simulated faults that it finds (NaN if not known): a model that finds few faults cannot call
-/// a log healthy.
-void settle_verdict(Diagnosis& diagnosis, const std::vector<FaultFinding>& faults, double model_period_s,
-                    double power = std::numeric_limits<double>::quiet_NaN());
+/// Returns the diagnosis with the verdict on its log, the reason, and the faults, merged and numbered: none
+/// if the log cannot be judged. `model_period_s` is the usual sample period of the logs that the model was
+/// learned from, `power` the share of simulated faults that it finds (NaN if not known): a model that finds
+/// few faults cannot call a log healthy.
+Diagnosis with_verdict(Diagnosis diagnosis, const std::vector<FaultFinding>& faults, double model_period_s,
+                       double power = std::numeric_limits<double>::quiet_NaN());
 
 }  // namespace faultline

@@ -42,10 +42,10 @@ ConditionItem friction_of(int joint, double value, const std::array<double, 2>& 
 TEST(Verdict, FaultsAreNumberedByOnsetWithUnknownTimesLast) {
   Diagnosis diagnosis = of_log(1000, 1000);
   const double nowhen = std::numeric_limits<double>::quiet_NaN();
-  settle_verdict(diagnosis,
-                 {fault(FaultKind::locked, 1, nowhen), fault(FaultKind::locked, 2, 2.0),
-                  fault(FaultKind::locked, 3, 1.0)},
-                 kPeriod_s);
+  diagnosis = with_verdict(diagnosis,
+                           {fault(FaultKind::locked, 1, nowhen), fault(FaultKind::locked, 2, 2.0),
+                            fault(FaultKind::locked, 3, 1.0)},
+                           kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
   EXPECT_EQ(diagnosis.verdict_reason, "3 faults found");
   ASSERT_EQ(diagnosis.faults.size(), 3u);
@@ -58,10 +58,10 @@ TEST(Verdict, AModelWithAGraveDoubtCallsNoLogHealthyButItsFindingsCount) {
   Diagnosis calm = of_log(1000, 1000);
   calm.model.grave_doubts = {"the robot does not explain the logs"};
   Diagnosis faulty = calm;
-  settle_verdict(calm, {}, kPeriod_s);
+  calm = with_verdict(calm, {}, kPeriod_s);
   EXPECT_EQ(calm.verdict, Verdict::inconclusive);
   EXPECT_NE(calm.verdict_reason.find("the robot does not explain the logs"), std::string::npos);
-  settle_verdict(faulty, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
+  faulty = with_verdict(faulty, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
   EXPECT_EQ(faulty.verdict, Verdict::faulty);
 }
 
@@ -73,7 +73,7 @@ FaultFinding sized(double times_least, double onset_s = 1.0) {
 
 TEST(Verdict, AChangeBelowTheLeastSizeIsListedAndIsNoFault) {
   Diagnosis diagnosis = of_log(1000, 1000);
-  settle_verdict(diagnosis, {sized(0.03)}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {sized(0.03)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
   EXPECT_TRUE(diagnosis.faults.empty());
   ASSERT_EQ(diagnosis.small_changes.size(), 1u);
@@ -83,21 +83,21 @@ TEST(Verdict, AChangeBelowTheLeastSizeIsListedAndIsNoFault) {
 
 TEST(Verdict, AChangeOfTheLeastSizeIsAFault) {
   Diagnosis diagnosis = of_log(1000, 1000);
-  settle_verdict(diagnosis, {sized(1.0)}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {sized(1.0)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
   EXPECT_TRUE(diagnosis.small_changes.empty());
 }
 
 TEST(Verdict, SmallChangesOfOneKindThatReachTheLeastSizeTogetherAreFaults) {
   Diagnosis diagnosis = of_log(1000, 1000);
-  settle_verdict(diagnosis, {sized(0.6, 1.0), sized(0.6, 5.0)}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {sized(0.6, 1.0), sized(0.6, 5.0)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
   EXPECT_TRUE(diagnosis.small_changes.empty());
 }
 
 TEST(Verdict, WithoutFaultsTheLogIsHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
   EXPECT_TRUE(diagnosis.faults.empty());
 }
@@ -105,7 +105,7 @@ TEST(Verdict, WithoutFaultsTheLogIsHealthy) {
 TEST(Verdict, ARobotFarBeyondItsNormalRangeIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.condition = {friction_of(3, 113.0, {99.0, 128.0})};
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_NE(diagnosis.verdict_reason.find("friction of joint 3 (+113 %"), std::string::npos);
 }
@@ -113,7 +113,7 @@ TEST(Verdict, ARobotFarBeyondItsNormalRangeIsNotCalledHealthy) {
 TEST(Verdict, WhatIsBeyondItsNormalRangeIsSaidWithIt) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.condition = {friction_of(1, 50.0, {45.0, 55.0})};
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_NE(diagnosis.verdict_reason.find("beyond its normal range: friction of joint 1 (+50 %"),
             std::string::npos);
 }
@@ -123,7 +123,7 @@ TEST(Verdict, ALogThatCannotBeJudgedHasNoFaults) {
   for (Diagnosis diagnosis : {of_log(1000, 1000, 1.4 * kPeriod_s), of_log(1000, 1000, kPeriod_s / 1.4),
                               of_log(19, 19), of_log(1000, 199)}) {
     diagnosis.condition.resize(1);
-    settle_verdict(diagnosis, faults, kPeriod_s);
+    diagnosis = with_verdict(diagnosis, faults, kPeriod_s);
     EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
     EXPECT_NE(diagnosis.verdict_reason, "");
     EXPECT_TRUE(diagnosis.faults.empty());
@@ -134,7 +134,7 @@ TEST(Verdict, ALogThatCannotBeJudgedHasNoFaults) {
 TEST(Verdict, ALogThatIsMisreadHasNoFaultAndSaysWhy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.log.issues.add(make_issue(kMisreadLog, Severity::severe, "it looks as if q2 is in degrees"));
-  settle_verdict(diagnosis, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_EQ(diagnosis.verdict_reason, "it looks as if q2 is in degrees");
   EXPECT_TRUE(diagnosis.faults.empty());
@@ -144,7 +144,7 @@ TEST(Verdict, ALogWhoseColumnsChangeHasNoFaultAndNamesTheRow) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.log.issues.add(
       make_issue(kChangedColumns, Severity::severe, "row 301: joints 1 and 2 are swapped"));
-  settle_verdict(diagnosis, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_EQ(diagnosis.verdict_reason, "row 301: joints 1 and 2 are swapped");
   EXPECT_TRUE(diagnosis.faults.empty());
@@ -156,7 +156,7 @@ TEST(Verdict, AScaledClockForbidsANamedFaultAndNoHealthyVerdict) {
     diagnosis.log.issues.add(make_issue(kScaledMotion, Severity::warning, "the clock is scaled"));
     std::vector<FaultFinding> faults;
     if (with_fault) faults.push_back(fault(FaultKind::sensor_drift, 1, 1.0));
-    settle_verdict(diagnosis, faults, kPeriod_s);
+    diagnosis = with_verdict(diagnosis, faults, kPeriod_s);
     EXPECT_EQ(diagnosis.verdict, with_fault ? Verdict::inconclusive : Verdict::healthy);
     EXPECT_TRUE(diagnosis.faults.empty());
     EXPECT_EQ(diagnosis.verdict_reason.find("the clock is scaled") != std::string::npos, with_fault);
@@ -169,7 +169,7 @@ TEST(Verdict, ASevereIssueForbidsHealthyAndHidesNoFault) {
     diagnosis.log.issues.add(make_issue("unit_implausible", Severity::severe, "q1 looks like degrees"));
     std::vector<FaultFinding> faults;
     if (with_fault) faults.push_back(fault(FaultKind::locked, 1, 1.0));
-    settle_verdict(diagnosis, faults, kPeriod_s);
+    diagnosis = with_verdict(diagnosis, faults, kPeriod_s);
     EXPECT_EQ(diagnosis.verdict, with_fault ? Verdict::faulty : Verdict::inconclusive);
     EXPECT_EQ(diagnosis.verdict_reason.find("q1 looks like degrees") != std::string::npos, !with_fault);
   }
@@ -246,32 +246,32 @@ TEST(Verdict, AModelThatSeesLittleCannotCallALogHealthy) {
   Diagnosis diagnosis;
   diagnosis.log.sample_period_s = kPeriod_s;
   diagnosis.log.rows_used = diagnosis.log.judgeable_rows = 1000;
-  settle_verdict(diagnosis, {}, kPeriod_s, 0.2);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s, 0.2);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_NE(diagnosis.verdict_reason.find("20 %"), std::string::npos) << diagnosis.verdict_reason;
-  settle_verdict(diagnosis, {}, kPeriod_s, 0.9);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s, 0.9);
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
 TEST(Verdict, ALogThatTheModelMissesManyTimesMoreOfIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.roughness = {1.0, 2.4, 4.8};
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_NE(diagnosis.verdict_reason.find("4.8 times as large at joint 3"), std::string::npos);
   diagnosis.roughness[2] = 2.4;
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
 TEST(Verdict, ALogOfWhichLittleCouldBeExplainedIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.judged_share = 0.4;
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_NE(diagnosis.verdict_reason.find("only 40 % of the log"), std::string::npos);
   diagnosis.judged_share = 0.9;
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
@@ -279,29 +279,29 @@ TEST(Verdict, ALogInWhichNoJointMovesIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.log.joints = 3;
   diagnosis.log.resting = {1, 2, 3};
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_NE(diagnosis.verdict_reason.find("no joint moved"), std::string::npos);
   diagnosis.log.resting = {1, 3};
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
 TEST(Verdict, AFaultStandsInARoughLog) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.roughness = {9.0};
-  settle_verdict(diagnosis, {fault(FaultKind::locked, 1, 2.0)}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1, 2.0)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
 }
 
 TEST(Verdict, AMomentThatNoFaultFreeRobotShowsIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.residuals = {{1, 1.1, 55.0, 3.0}, {2, 4.4, 276.0, 12.22}};
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_NE(diagnosis.verdict_reason.find("joint 2 at 12.220 s"), std::string::npos);
   diagnosis.residuals[1].velocity_peak = 61.0;
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
@@ -309,7 +309,7 @@ TEST(Verdict, AJointThatWasNotJudgedForLongForbidsHealthyAndStandsInTheReason) {
   Diagnosis diagnosis = of_log(1000, 700);
   diagnosis.log.end_s = 10.0;
   diagnosis.log.unjudged = {{2, 7.0, 10.0, false, true}, {1, 3.0, 4.0, true, false}};
-  settle_verdict(diagnosis, {}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_EQ(
       diagnosis.verdict_reason,
@@ -320,17 +320,17 @@ TEST(Verdict, AJointThatWasNotJudgedForLongForbidsHealthyAndStandsInTheReason) {
 
 TEST(Verdict, SpeaksOfTheWholeLogOnlyWhereAllOfItWasJudged) {
   Diagnosis whole = of_log(1000, 1000), lost = of_log(1000, 1000), one_run = of_log(1000, 1000);
-  settle_verdict(whole, {}, kPeriod_s);
+  whole = with_verdict(whole, {}, kPeriod_s);
   EXPECT_EQ(whole.verdict_reason, "the identified robot explains the whole log");
   lost.log.is_whole = false;
   lost.log.rows_unjudged = 3;
   lost.log.rows_read = 1000;
-  settle_verdict(lost, {}, kPeriod_s);
+  lost = with_verdict(lost, {}, kPeriod_s);
   EXPECT_EQ(lost.verdict, Verdict::healthy);
   EXPECT_EQ(lost.verdict_reason.find("whole log"), std::string::npos);
   EXPECT_NE(lost.verdict_reason.find("3 of 1000 rows"), std::string::npos);
   one_run.log.runs = {{.run = 1, .is_read = false}, {.run = 2}, {.run = 3, .is_read = false}};
-  settle_verdict(one_run, {}, kPeriod_s);
+  one_run = with_verdict(one_run, {}, kPeriod_s);
   EXPECT_NE(one_run.verdict_reason.find("run 2 of 3"), std::string::npos) << one_run.verdict_reason;
 }
 
