@@ -52,8 +52,7 @@ std::vector<Neighbour> retrieve(const CaseBase& base, std::span<const double> fe
 
 Votes votes_on(const Episode& episode, const CaseBase& base, const VoteOptions& options) {
   Votes votes;
-  const double near = options.near_similarity < 0.0 ? base.metric().near_similarity : options.near_similarity;
-  votes.precedents = retrieve(base, episode.features, options.neighbours, near);
+  votes.precedents = retrieve(base, episode.features, options.neighbours, base.metric().near_similarity);
   vote(votes.shares, episode.mlp.label, options.opinion_weight * episode.mlp.confidence);
   vote(votes.shares, episode.rbfn.label, options.opinion_weight * episode.rbfn.confidence);
   vote_of_cases(votes.shares, votes.precedents, options);

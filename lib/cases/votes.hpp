@@ -24,7 +24,6 @@ struct VoteOptions {
   int neighbours = 7;           ///< cases that vote
   double opinion_weight = 1.0;  ///< a network's vote is this times its confidence; a case's, its similarity
   double unconfirmed_weight = 0.5;  ///< factor on the vote of a case that is neither confirmed nor rejected
-  double near_similarity = -1.0;    ///< a less similar case is no precedent; negative = as the base learned
 };
 
 struct LabelShare {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -34,6 +35,17 @@ void parallel_for(int count, int threads, const std::function<void(int)>& work) 
   for (std::thread& helper : helpers) helper.join();
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
+}
+
+void parallel_steps(const std::string& what, int count, int threads, const Progress& progress,
+                    const std::function<void(int)>& work) {
+  std::mutex reporting;
+  int done = 0;
+  parallel_for(count, threads, [&](int i) {
+    work(i);
+    const std::lock_guard lock(reporting);
+    if (progress) progress(what, static_cast<double>(++done) / count);
+  });
 }
 
 }  // namespace faultline

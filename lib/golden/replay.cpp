@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <mutex>
 
 #include "lib/core/error.hpp"
 #include "lib/core/parallel.hpp"
@@ -94,16 +93,12 @@ GoldenRun replay(const std::vector<ReplayLog>& logs, const ModelAndCases& subjec
   std::vector<ReplayLog> healthy;
   std::copy_if(logs.begin(), logs.end(), std::back_inserter(healthy),
                [](const ReplayLog& log) { return log.identify; });
-  std::mutex mutex;
-  double done = 0.0;
-  parallel_for(static_cast<int>(logs.size()) + 1, options.threads, [&](int i) {
+  const auto steps = static_cast<int>(logs.size()) + 1;
+  parallel_steps("replaying golden logs", steps, options.threads, progress, [&](int i) {
     if (i > 0)
       run.logs[i - 1] = {logs[i - 1].name, observe_file(logs[i - 1], subject, open, options.trace_points)};
     else if (!healthy.empty())
       run.identification = observe_identification(healthy, subject.model, open, options.threads);
-    const std::lock_guard lock(mutex);
-    done += 1.0;
-    if (progress) progress("replaying golden logs", done / static_cast<double>(logs.size() + 1));
   });
   return run;
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <mutex>
 
 #include "lib/core/error.hpp"
 #include "lib/core/parallel.hpp"
@@ -115,9 +114,8 @@ TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::v
   TwinStudy study;
   study.runs.resize(labels.size());
   if (options.keep_residuals) study.residuals.resize(labels.size());
-  std::mutex reporting;
-  int done = 0;
-  parallel_for(static_cast<int>(labels.size()), options.threads, [&](int i) {
+  const auto count = static_cast<int>(labels.size());
+  parallel_steps("simulating faults", count, options.threads, progress, [&](int i) {
     TwinRun run = twin_run(twin, labels[i], options.first_seed + static_cast<std::uint64_t>(i));
     if (run.log.rows() < kFewestRunRows) throw runs_diverge(twin.sample_period_s);
     MonitoredRun& out = study.runs[i];
@@ -130,9 +128,6 @@ TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::v
     MemorySource source(std::move(run.log), "simulated", kRowsAtATime);
     out.log =
         options.at_known_times ? monitor_at(source, rigid, run.onset_s, run.end_s) : monitor(source, rigid);
-    const std::lock_guard lock(reporting);
-    if (progress)
-      progress("simulating faults", static_cast<double>(++done) / static_cast<double>(labels.size()));
   });
   return study;
 }

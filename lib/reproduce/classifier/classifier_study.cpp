@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "lib/core/parallel.hpp"
 #include "lib/reproduce/classifier/classifier_bench.hpp"
 #include "lib/reproduce/classifier/transition_posterior.hpp"
 #include "lib/reproduce/page/reproduction.hpp"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lib/core/error.hpp"
+#include "lib/core/parallel.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/log/memory_source.hpp"
 #include "lib/robot/robot.hpp"

@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "lib/core/error.hpp"
 #include "lib/core/json_values.hpp"
-#include "lib/core/parallel.hpp"
 #include "lib/core/version.hpp"
 
 namespace faultline {
@@ -130,17 +128,6 @@ void ReproduceOptions::check() const {
   if (threads < 0)
     throw Error(ErrorCode::usage, "ReproduceOptions.threads",
                 "is " + std::to_string(threads) + ", must not be negative");
-}
-
-void parallel_steps(const std::string& what, int count, int threads, const Progress& progress,
-                    const std::function<void(int)>& work) {
-  std::mutex reporting;
-  int done = 0;
-  parallel_for(count, threads, [&](int i) {
-    work(i);
-    const std::lock_guard lock(reporting);
-    if (progress) progress(what, static_cast<double>(++done) / count);
-  });
 }
 
 std::string reproduction_json(const Reproduction& reproduction) {

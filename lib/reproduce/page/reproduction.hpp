@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,11 +20,6 @@ struct ReproduceOptions {
   /// Throws Error(usage) naming the field, its value and its bound.
   void check() const;
 };
-
-/// Calls work(i) for i = 0 .. count-1 as parallel_for() does, and reports the number done as a share of
-/// `count`.
-void parallel_steps(const std::string& what, int count, int threads, const Progress& progress,
-                    const std::function<void(int)>& work);
 
 /// A picture with its stable name, which is also its file's.
 struct Figure {

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "lib/core/parallel.hpp"
 #include "lib/reproduce/page/reproduction.hpp"
 #include "lib/reproduce/runs/alarm_score.hpp"
 #include "lib/reproduce/runs/run_condition.hpp"
