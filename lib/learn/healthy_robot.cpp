@@ -50,23 +50,24 @@ Model identified_model(const Identification& identification) {
   return model;
 }
 
-TorqueConversion reading_of(const Robot& opened_with, const Robot& robot) {
-  TorqueConversion out{robot.torque_delay_s, robot.torque_gain};
-  out.delay_s.resize(robot.joints(), 0.0);
-  out.gain.resize(robot.joints(), 1.0);
+/// Returns what converts the torques of logs opened with one robot to those of another robot.
+DelayedTorque conversion_of(const Robot& opened_with, const Robot& robot) {
+  std::vector<double> delay_s = robot.torque_delay_s, gain = robot.torque_gain;
+  delay_s.resize(robot.joints(), 0.0);
+  gain.resize(robot.joints(), 1.0);
   for (std::size_t j = 0; j < opened_with.torque_delay_s.size(); ++j)
-    out.delay_s[j] -= opened_with.torque_delay_s[j];
-  for (std::size_t j = 0; j < opened_with.torque_gain.size(); ++j) out.gain[j] /= opened_with.torque_gain[j];
-  return out;
+    delay_s[j] -= opened_with.torque_delay_s[j];
+  for (std::size_t j = 0; j < opened_with.torque_gain.size(); ++j) gain[j] /= opened_with.torque_gain[j];
+  return {std::move(delay_s), std::move(gain)};
 }
 
 /// Returns the logs that were not left out, with delay and gain of torques compensated; `logs` outlive them.
 std::deque<DelayedTorqueSource> compensated_logs(std::span<LogSource* const> logs,
-                                                 const TorqueConversion& reading,
+                                                 const DelayedTorque& conversion,
                                                  const std::vector<IdentifiedLog>& identified) {
   std::deque<DelayedTorqueSource> out;
   for (std::size_t i = 0; i < logs.size(); ++i)
-    if (!identified[i].left_out) out.push_back(reading.of(*logs[i]));
+    if (!identified[i].left_out) out.emplace_back(*logs[i], conversion);
   return out;
 }
 
@@ -75,8 +76,8 @@ HealthyRobot with_identification(std::span<LogSource* const> logs, const Robot& 
                                  Identification identification, std::vector<IdentifiedLog> given) {
   HealthyRobot out;
   out.model = identified_model(identification);
-  out.reading = reading_of(robot, out.model.robot);
-  out.logs = compensated_logs(logs, out.reading, given);
+  out.conversion = conversion_of(robot, out.model.robot);
+  out.logs = compensated_logs(logs, out.conversion, given);
   out.model.motion = usual_motion(pointers(out.logs), identification.robot.chain);
   out.identification = std::move(identification);
   out.given = std::move(given);

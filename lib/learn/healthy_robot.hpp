@@ -18,13 +18,6 @@
 
 namespace faultline {
 
-/// Delay and gain by joint that convert the torques of logs opened with one robot to those of another robot.
-struct TorqueConversion {
-  std::vector<double> delay_s, gain;
-
-  DelayedTorqueSource of(LogSource& log) const { return DelayedTorqueSource(log, {delay_s, gain}); }
-};
-
 template <typename Source>
 std::vector<LogSource*> pointers(std::deque<Source>& logs) {
   std::vector<LogSource*> out;
@@ -36,7 +29,7 @@ std::vector<LogSource*> pointers(std::deque<Source>& logs) {
 struct HealthyRobot {
   Identification identification;
   std::vector<IdentifiedLog> given;                 ///< all logs, as first identified
-  TorqueConversion reading;                         ///< of logs that were opened with the robot as given
+  DelayedTorque conversion{std::vector<double>{}};  ///< of logs opened with the robot as given to its torques
   std::deque<DelayedTorqueSource> logs;             ///< those not left out
   std::vector<LogSource*> days;                     ///< the same; a single log is cut into several days
   std::vector<std::unique_ptr<LogSource>> parts{};  ///< of a single log

@@ -19,7 +19,7 @@
 #include "lib/learn/day_differences.hpp"
 #include "lib/learn/model_caveats.hpp"
 #include "lib/learn/tracking_model.hpp"
-#include "lib/learn/training_episodes.hpp"
+#include "lib/learn/training_cases.hpp"
 #include "lib/learn/twin_study.hpp"
 #include "lib/log/remembered_source.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"
@@ -100,11 +100,11 @@ std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
 /// chance with a probability of at most exp(-t) (Wald, 1945), so x nats more divide that rate by exp(x).
 double limit_shift(double alarms_per_hour) { return elementary::log(kUsualAlarmsPerHour / alarms_per_hour); }
 
-std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const TorqueConversion& reading,
+std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const DelayedTorque& conversion,
                                     const Model& model) {
   std::vector<MonitoredRun> runs;
   for (const LabelledLog& entry : labelled) {
-    DelayedTorqueSource log = reading.of(*entry.log);
+    DelayedTorqueSource log(*entry.log, conversion);
     log.rewind();
     runs.push_back({.label = entry.label,
                     .onset_s = entry.onset_s,
@@ -136,7 +136,7 @@ TwinStudy joined(TwinStudy a, TwinStudy b) {
 
 /// Trains the networks and fills the case base with simulated faults of the identified robot, and validates
 /// them on runs that were not used in training.
-void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const TorqueConversion& reading,
+void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const DelayedTorque& conversion,
                      const std::vector<UniformLog>& days, const LearnOptions& options,
                      const Progress& progress) {
   Model& model = out.model;
@@ -170,13 +170,13 @@ void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const 
   model.samples = learn_sample_mode(model, std::move(residuals));
   std::vector<MonitoredRun> runs = std::move(faulty.runs);
   const std::size_t simulated = runs.size();
-  for (MonitoredRun& run : monitored(labelled, reading, model)) runs.push_back(std::move(run));
+  for (MonitoredRun& run : monitored(labelled, conversion, model)) runs.push_back(std::move(run));
 
   if (progress) progress("training networks on episodes", kSimulated);
-  const TrainingEpisodes training = training_episodes(runs, model);
+  const std::vector<Case> training = training_cases(runs, model);
   EpisodeClassifierOptions classifying;
   classifying.seed = options.seed;
-  model.episode_classifier = train_episode_classifier(training.episodes, classifying);
+  model.episode_classifier = trained_on(training, classifying);
   out.cases = fill_case_base(training, model, classifying);
   std::vector<MonitoredRun> checks =
       runs_of(faults(options.validation_per_label), kValidationSeeds, part_of(progress, kTrained, 1.0), {})
@@ -252,7 +252,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                part_of(progress, kIdentified, kResidualsLearned));
   model.residual = out.residual.generator;
   model.has_velocity = !model.residual.shape.derive_velocity;
-  learn_from_twin(out, labelled, found.reading, trusted.logs, options, progress);
+  learn_from_twin(out, labelled, found.conversion, trusted.logs, options, progress);
   model.relations =
       learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
                                .period_s = model.sample_period_s,

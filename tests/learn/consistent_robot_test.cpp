@@ -12,7 +12,7 @@
 #include "lib/core/error.hpp"
 #include "lib/diagnose/diagnose.hpp"
 #include "lib/learn/model_caveats.hpp"
-#include "lib/learn/training_episodes.hpp"
+#include "lib/learn/training_cases.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/learn/small_robot.hpp"
 
@@ -115,7 +115,7 @@ TEST(LearnDoubts, ARobotThatDoesNotExplainItsLogsIsRefused) {
 
 TEST(LearnDoubts, WhereNoSimulatedFaultShowsTheReasonIsSaid) {
   try {
-    training_episodes({}, Model{});
+    training_cases({}, Model{});
     FAIL() << "nothing to train on was enough";
   } catch (const Error& error) {
     EXPECT_NE(error.message().find("0 of 0 simulated faults show"), std::string::npos) << error.what();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/learn/training_episodes.hpp"
+#include "lib/learn/training_cases.hpp"
 
 #include <fmt/format.h>
 
@@ -13,15 +13,15 @@
 namespace faultline {
 namespace {
 
-/// Trains two classifiers: number h without the episodes i with i % 2 == h.
-std::array<EpisodeClassifier, 2> trained_on_halves(const std::vector<LabelledEpisode>& episodes,
+/// Trains two classifiers: number h without the cases i with i % 2 == h.
+std::array<EpisodeClassifier, 2> trained_on_halves(const std::vector<Case>& cases,
                                                    const EpisodeClassifierOptions& options) {
   std::array<EpisodeClassifier, 2> half;
   for (std::size_t h = 0; h < half.size(); ++h) {
-    std::vector<LabelledEpisode> others;
-    for (std::size_t i = 0; i < episodes.size(); ++i)
-      if (i % 2 != h) others.push_back(episodes[i]);
-    half[h] = train_episode_classifier(others, options);
+    std::vector<Case> others;
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      if (i % 2 != h) others.push_back(cases[i]);
+    half[h] = trained_on(others, options);
   }
   return half;
 }
@@ -39,13 +39,13 @@ Case case_of(const MonitoredRun& run, const Episode& episode) {
   return c;
 }
 
-/// Throws Error(input) unless each half of the episodes has two labels, as every classifier needs.
-void check_kinds(const std::vector<LabelledEpisode>& episodes, std::size_t runs) {
+/// Throws Error(input) unless each half of the cases has two labels, as every classifier needs.
+void check_kinds(const std::vector<Case>& cases, std::size_t runs) {
   for (std::size_t half = 0; half < 2; ++half) {
     std::vector<FaultLabel> labels;
-    for (std::size_t i = half; i < episodes.size(); i += 2)
-      if (std::find(labels.begin(), labels.end(), episodes[i].label) == labels.end())
-        labels.push_back(episodes[i].label);
+    for (std::size_t i = half; i < cases.size(); i += 2)
+      if (std::find(labels.begin(), labels.end(), cases[i].label) == labels.end())
+        labels.push_back(cases[i].label);
     if (labels.size() < 2)
       throw Error(
           ErrorCode::input, "the healthy logs",
@@ -55,31 +55,33 @@ void check_kinds(const std::vector<LabelledEpisode>& episodes, std::size_t runs)
                       "every row, check units, signs and columns; if it is noise, record faster motions; "
                       "if it is large in some rows, the robot has what the model lacks, such as an "
                       "elastic joint",
-                      episodes.size(), runs));
+                      cases.size(), runs));
   }
 }
 
 }  // namespace
 
-TrainingEpisodes training_episodes(std::span<const MonitoredRun> runs, const Model& model) {
-  TrainingEpisodes out;
-  for (const MonitoredRun& run : runs) {
-    const MonitoredEpisode* of_fault = episode_of_fault(run);
-    if (!of_fault) continue;
-    const Episode episode = describe_episode(*of_fault, model).episode;
-    out.episodes.push_back({episode.features, run.label});
-    out.cases.push_back(case_of(run, episode));
-  }
-  check_kinds(out.episodes, runs.size());
-  return out;
+std::vector<Case> training_cases(std::span<const MonitoredRun> runs, const Model& model) {
+  std::vector<Case> cases;
+  for (const MonitoredRun& run : runs)
+    if (const MonitoredEpisode* of_fault = episode_of_fault(run))
+      cases.push_back(case_of(run, describe_episode(*of_fault, model).episode));
+  check_kinds(cases, runs.size());
+  return cases;
 }
 
-CaseBase fill_case_base(const TrainingEpisodes& training, const Model& model,
+EpisodeClassifier trained_on(const std::vector<Case>& cases, const EpisodeClassifierOptions& options) {
+  std::vector<LabelledEpisode> episodes;
+  for (const Case& c : cases) episodes.push_back({c.episode.features, c.label});
+  return train_episode_classifier(episodes, options);
+}
+
+CaseBase fill_case_base(const std::vector<Case>& training, const Model& model,
                         const EpisodeClassifierOptions& options) {
   CaseBase cases(episode_feature_names(model.labels, model.robot.joints()));
-  const std::array<EpisodeClassifier, 2> half = trained_on_halves(training.episodes, options);
-  for (std::size_t i = 0; i < training.episodes.size(); ++i) {
-    Case c = training.cases[i];
+  const std::array<EpisodeClassifier, 2> half = trained_on_halves(training, options);
+  for (std::size_t i = 0; i < training.size(); ++i) {
+    Case c = training[i];
     const Opinions opinions = classify_episode(half[i % 2], c.episode.features);
     c.episode.mlp = opinions.mlp;
     c.episode.rbfn = opinions.rbfn;
