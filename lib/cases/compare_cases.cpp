@@ -8,7 +8,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastWeight = 0.1;
 constexpr double kStandsOut = 0.5;  // least shared_deviation() of a listed feature, standard deviations
 
@@ -37,8 +36,7 @@ std::vector<UsualFeature> usual_features(const CaseBase& base) {
       mean += step / ++count;
       squares += step * (x - mean);
     }
-    const bool known = count > 1.0;
-    usual.push_back({known ? mean : kUnknown, known ? std::sqrt(squares / (count - 1.0)) : kUnknown});
+    usual.push_back(count > 1.0 ? UsualFeature{mean, std::sqrt(squares / (count - 1.0))} : UsualFeature{});
   }
   return usual;
 }

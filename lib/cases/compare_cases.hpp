@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct Likeness {
 
 /// Statistics of a feature over all cases of a base; NaN if fewer than two have it.
 struct UsualFeature {
-  double mean = 0.0;
-  double spread = 0.0;  ///< standard deviation
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double spread = mean;  ///< standard deviation
 };
 std::vector<UsualFeature> usual_features(const CaseBase& base);
 

@@ -28,8 +28,6 @@ int open_flags(SqliteMode mode) {
   return SQLITE_OPEN_READONLY;
 }
 
-constexpr int kPatienceMs = 5000;  // waiting time for the lock of another program
-constexpr int kLongestValue = 64 << 20;
 constexpr int kStepsAtATime = 10'000;
 constexpr long long kLeastSteps = 50'000'000, kStepsAByte = 100;
 
@@ -131,7 +129,7 @@ SqliteFile::SqliteFile(const std::string& path, SqliteMode mode, const std::stri
     db_ = nullptr;
     fail(code);
   }
-  sqlite3_busy_timeout(db_, kPatienceMs);
+  sqlite3_busy_timeout(db_, 5000);  // ms to wait for the lock of another program
   distrust_schema();
   if (mode != SqliteMode::create) limit_steps(path);
 }
@@ -143,7 +141,7 @@ void SqliteFile::distrust_schema() {
                         SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_DQS_DDL, SQLITE_DBCONFIG_DQS_DML})
     sqlite3_db_config(db_, off, 0, nullptr);
   sqlite3_db_config(db_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kLongestValue);
+  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, 64 << 20);
   sqlite3_limit(db_, SQLITE_LIMIT_ATTACHED, 0);
 }
 

@@ -13,7 +13,6 @@ namespace faultline {
 namespace {
 
 constexpr int kParameters = 1 + 1 + kConfidenceSources;  // slope, common shift, shift of each source
-constexpr int kSteps = 50;
 constexpr double kSureEnough = 0.99;  // confidences above this, or below its complement, are clamped to it
 // Standard deviations of the prior.
 constexpr double kSlopeStd = 0.5, kShiftStd = 2.0, kOwnShiftStd = 1.0;
@@ -62,7 +61,7 @@ ConfidenceCalibration calibrate_confidence(std::span<const JudgedConfidence> jud
   Parameters unchanged = Parameters::Zero();
   unchanged[0] = 1.0;
   Parameters theta = unchanged;
-  for (int step = 0; step < kSteps; ++step) {  // Newton: the negative log likelihood is convex
+  for (int step = 0; step < 50; ++step) {  // Newton: the negative log likelihood is convex
     Parameters gradient = precision.cwiseProduct(theta - unchanged);
     Eigen::Matrix<double, kParameters, kParameters> curvature = precision.asDiagonal();
     for (const JudgedConfidence& one : judged) {

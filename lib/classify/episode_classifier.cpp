@@ -74,12 +74,10 @@ Opinions classify_episode(const EpisodeClassifier& classifier, const std::vector
 }
 
 void to_json(nlohmann::json& json, const EpisodeClassifier& classifier) {
-  nlohmann::json labels = nlohmann::json::array(), scaler, mlp, rbfn;
+  nlohmann::json labels = nlohmann::json::array();
   for (const FaultLabel& label : classifier.labels) labels.push_back({to_string(label.kind), label.joint});
-  to_json(scaler, classifier.scaler);
-  to_json(mlp, classifier.mlp);
-  to_json(rbfn, classifier.rbfn);
-  json = {{"labels", labels}, {"scaler", scaler}, {"mlp", mlp}, {"rbfn", rbfn}};
+  json = {
+      {"labels", labels}, {"scaler", classifier.scaler}, {"mlp", classifier.mlp}, {"rbfn", classifier.rbfn}};
 }
 
 EpisodeClassifier episode_classifier_from_json(const nlohmann::json& json, const std::string& where) {

@@ -18,7 +18,6 @@ constexpr double kSizeFades = 20.0;  // nats; a label's size is weighted by exp(
 constexpr double kNotJudged = -1e3;  // nats of a label without a judged hypothesis
 constexpr double kMeanOfHalfSine = 2.0 / std::numbers::pi;
 constexpr double kShortest_s = 1e-3, kLongest_s = 3.0;  // durations are bounded to this range
-constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 // Conversions between numbers and features: deficit of evidence to the most likely label in nats, and the
 // weight of the size of a label with that deficit.
@@ -36,8 +35,6 @@ double bounded_size(double size) { return std::isfinite(size) ? elementary::tanh
 constexpr double kHardlyCounts = 0.5;  // weight of a size below which it is not shown
 constexpr double kLargestTanh = 0.9999;
 constexpr double kRounding = 1e-6;
-constexpr double kPercent = 100.0;
-constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns the deficit in nats, without rounding error at its bound kLargestDeficit.
 double nats_behind(double feature) {
@@ -53,9 +50,9 @@ double unfaded_size(std::span<const EpisodeFeature> list, std::size_t which,
   const auto behind = std::find_if(list.begin(), list.end(), [&](const EpisodeFeature& f) {
     return f.role == FeatureRole::behind && f.label == list[which].label;
   });
-  if (behind == list.end()) return kNotTold;
+  if (behind == list.end()) return std::nan("");
   const double counts = size_counts(deficit_of_feature(features[behind - list.begin()]));
-  if (!(counts > kHardlyCounts)) return kNotTold;
+  if (!(counts > kHardlyCounts)) return std::nan("");
   const double tanh = std::clamp(features[which] / counts, -kLargestTanh, kLargestTanh);
   return 0.5 * elementary::log1p(2.0 * tanh / (1.0 - tanh));  // inverse of tanh
 }
@@ -64,14 +61,14 @@ DescribedFeature read_size(std::span<const EpisodeFeature> list, std::size_t whi
                            std::span<const double> features, const UsualMotion& usual, const Chain& chain) {
   const FaultLabel& label = list[which].label;
   const int j = label.joint - 1, s = list[which].size;
-  DescribedFeature reading{"size of " + quoted(label), "", kNotTold};
+  DescribedFeature reading{"size of " + quoted(label), ""};
   if (j < 0 || j >= usual.joints() || s >= describe(label.kind).size_count) return reading;
   const FaultSize& size = describe(label.kind).size[s];
   const bool turns = chain.geometry[j].kind == AxisKind::revolute;
   const bool is_share = size.feature == SizeMeasure::torque_share;
   reading.unit = is_share ? "%" : unit_of(size.feature, turns);
-  reading.value = unfaded_size(list, which, features) * feature_scale(usual, size.feature, j) *
-                  (is_share ? kPercent : 1.0);
+  reading.value =
+      unfaded_size(list, which, features) * feature_scale(usual, size.feature, j) * (is_share ? 100.0 : 1.0);
   return reading;
 }
 
@@ -141,8 +138,8 @@ std::vector<double> episode_features(const std::vector<LabelEvidence>& evidence,
   features.push_back(elementary::log1p(best));
   features.push_back(elementary::log(std::clamp(lasts_s, kShortest_s, kLongest_s)));
   for (int j = 0; j < joints; ++j) {
-    const double rms = j < std::ssize(residuals) ? residuals[j].velocity_rms : kNotMeasured;
-    features.push_back(std::isfinite(rms) ? elementary::log(std::max(rms, 1e-3)) : 0.0);
+    const bool is_known = j < std::ssize(residuals) && std::isfinite(residuals[j].velocity_rms);
+    features.push_back(is_known ? elementary::log(std::max(residuals[j].velocity_rms, 1e-3)) : 0.0);
   }
   return features;
 }

@@ -22,8 +22,7 @@ constexpr double kLeastShift = 0.1;  // sample periods
 /// Share of the rms speed below which a position determines no time.
 constexpr double kSlow = 0.05;
 
-constexpr int kFine = 20000;  // samples to refine a shift
-constexpr int kShiftRefinements = 6;
+constexpr int kFine = 20000;           // samples to refine a shift
 constexpr std::size_t kRefined = 8;    // number of shifts to refine
 constexpr double kNearlyAsGood = 4.0;  // largest ratio to the least cost, before refinement
 constexpr double kAgreeing = 1e-4;     // squared distance of motions that agree, in variances of the motion
@@ -57,7 +56,7 @@ double refined_shift(const MotionPair& motions, const RunSignals& first, double 
   const double slow = kSlow * motions.rms_speed();
   const double fine = std::max(first.period_s, first.length_s / kFine);
   double most = 2.0 * step;
-  for (int i = 0; i < kShiftRefinements; ++i, most /= 2.0) {
+  for (int i = 0; i < kRefinements; ++i, most /= 2.0) {
     std::vector<double> corrections;
     for (double t = 0.0; t <= first.length_s; t += fine)
       if (const double c = motions.correction(t, t + shift, slow); std::abs(c) <= most)

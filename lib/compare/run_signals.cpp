@@ -12,10 +12,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kNormalMad = 1.4826;      // ratio of standard deviation to median magnitude of normal noise
-constexpr double kThirdDifference = 20.0;  // variance of 1 -3 3 -1 of white noise of variance 1
-constexpr double kUniform = 12.0;          // variance of rounding to steps of 1 is 1 / 12
-
 /// Returns the polynomial through samples [begin, end) at `at` (Lagrange).
 double through(const std::vector<double>& time, const std::vector<double>& values, std::size_t begin,
                std::size_t end, double at) {
@@ -84,8 +80,10 @@ double noise_of(const std::vector<double>& values) {
     if (std::isfinite(d)) third.push_back(d);
   }
   if (third.empty()) return 0.0;
-  const double smooth = kNormalMad * upper_median(third) / std::sqrt(kThirdDifference);
-  return std::isfinite(step) ? std::max(smooth, step / std::sqrt(kUniform)) : smooth;
+  // The standard deviation of normal noise is 1.4826 times its median magnitude; 1 -3 3 -1 multiplies the
+  // variance of white noise by 20; rounding to steps of 1 has the variance 1 / 12.
+  const double smooth = 1.4826 * upper_median(third) / std::sqrt(20.0);
+  return std::isfinite(step) ? std::max(smooth, step / std::sqrt(12.0)) : smooth;
 }
 
 const RunSignal* RunSignals::find(const std::string& quantity, int joint) const {

@@ -15,8 +15,6 @@ namespace faultline {
 namespace {
 
 constexpr double kEnough = 0.75;  // share of the simulated faults of a kind: fewer found are reported
-constexpr std::size_t kListedStretches = 10;  // unjudged stretches in a report: longer lists are not read
-constexpr double kPercentOfTime = 100.0;
 
 std::string what_is_missing(const UnjudgedStretch& stretch) {
   if (stretch.joint == 0) return "rows are missing";
@@ -53,7 +51,7 @@ std::string unjudged_words(const UnjudgedStretch& stretch, const LogFacts& log) 
   const std::string end = stretch.end_s == log.end_s ? ", the end of the log" : "";
   if (stretch.share < 1.0)
     return fmt::format("{} in {:.0f} % of the time from {} to {}{}: {}, repeatedly", not_judged(stretch),
-                       kPercentOfTime * stretch.share, time_text(stretch.start_s, period_s),
+                       100.0 * stretch.share, time_text(stretch.start_s, period_s),
                        time_text(stretch.end_s, period_s), end,
                        stretch.joint == 0 ? "rows are missing or empty" : what_is_missing(stretch));
   return fmt::format("{} from {} to {}{}: {}", not_judged(stretch), time_text(stretch.start_s, period_s),
@@ -62,7 +60,7 @@ std::string unjudged_words(const UnjudgedStretch& stretch, const LogFacts& log) 
 
 std::vector<std::string> unjudged_spots(const LogFacts& log) {
   std::vector<std::string> spots;
-  const std::size_t listed = std::min(log.unjudged.size(), kListedStretches);
+  const std::size_t listed = std::min<std::size_t>(log.unjudged.size(), 10);  // longer lists are not read
   for (std::size_t i = 0; i < listed; ++i) {
     std::string words = unjudged_words(log.unjudged[i], log);
     words[0] = words[0] == 'j' ? 'J' : 'N';

@@ -11,8 +11,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kPercent = 100.0;
-
 const char* words_of(DayEffectKind kind) {
   switch (kind) {
     case DayEffectKind::friction:
@@ -36,7 +34,7 @@ ConditionItem item_of(const DayEffect& effect, const Chain& chain) {
   item.name = fmt::format("{}_{}", to_string(effect.kind), item.joint);
   item.what = fmt::format("{} of joint {}", words_of(effect.kind), item.joint);
   item.unit = is_share ? "%" : turns ? "N m" : "N";
-  const double unit = is_share ? kPercent : 1.0;
+  const double unit = is_share ? 100.0 : 1.0;
   item.value = unit * effect.value;
   item.ci95 = {unit * (effect.value - kNormal95 * effect.std),
                unit * (effect.value + kNormal95 * effect.std)};

@@ -11,7 +11,6 @@
 namespace faultline {
 namespace {
 
-constexpr FaultLabel kUnknownFault{FaultKind::unknown, 0};
 /// Two networks that agree with a lower mean confidence decide nothing.
 constexpr double kThinConfidence = 0.2;
 constexpr double kSureOfUnknown = 0.9;  // confidence that no known fault has such a misfit
@@ -56,7 +55,11 @@ Decision opinion_on(const Episode& episode, const Votes& votes) {
 Decision decide(const DecisionBasis& basis) {
   const Decision opinion = opinion_on(basis.episode, basis.votes);
   if (basis.likeliest.kind == FaultKind::unknown)
-    return {kUnknownFault, kSureOfUnknown, DecidedBy::evidence, DecisionReason::no_known_form, opinion.label};
+    return {{FaultKind::unknown, 0},
+            kSureOfUnknown,
+            DecidedBy::evidence,
+            DecisionReason::no_known_form,
+            opinion.label};
   if (explains_the_log(opinion.label, basis)) return opinion;
   const DecisionReason reason =
       opinion.label.kind == FaultKind::none ? DecisionReason::evidence_alone : DecisionReason::log_excludes;

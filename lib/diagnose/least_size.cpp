@@ -12,8 +12,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kSharePercent = 100.0;
-
 bool is_small(const FaultFinding& fault) { return fault.extent.times_least < 1.0; }
 
 /// Least value of a size of the label's kind, SI units.
@@ -26,7 +24,7 @@ std::string unit_at(const FaultLabel& label, const FaultSize& size, const Model&
 }
 
 std::string amount_text(double size, const std::string& unit) {
-  return unit == "1" ? fmt::format("{:.2g} %", kSharePercent * size) : fmt::format("{:.2g} {}", size, unit);
+  return unit == "1" ? fmt::format("{:.2g} %", 100.0 * size) : fmt::format("{:.2g} {}", size, unit);
 }
 
 /// Sum of times_least over all small findings with the label of `fault`.

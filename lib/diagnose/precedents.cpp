@@ -13,9 +13,6 @@
 namespace faultline {
 namespace {
 
-constexpr std::ptrdiff_t kMoreCases = 3;  // listed cases that did not vote, at most
-constexpr std::size_t kTold = 3;          // listed features that agree, and that differ, at most
-
 /// The data for comparing an episode with cases.
 struct Comparing {
   const DecisionBasis& basis;
@@ -30,7 +27,7 @@ std::vector<PrecedentFeature> as_precedents(const std::vector<FeatureMatch>& mat
   std::vector<PrecedentFeature> out;
   if (by.list.empty()) return out;
   for (const FeatureMatch& match : matches) {
-    if (out.size() == kTold) break;
+    if (out.size() == 3) break;  // longer lists are not read
     const DescribedFeature here = describe_feature(by.list, match.feature, by.basis.episode.features,
                                                    by.model.motion, by.model.robot.chain);
     const DescribedFeature there =
@@ -62,7 +59,7 @@ Precedent precedent_of(const Neighbour& neighbour, bool voted, const Comparing& 
           .unlike = as_precedents(found.unlike, c, by)};
 }
 
-/// Near cases that were not simulated and did not vote, sorted by origin.
+/// Returns at most three near cases that were not simulated and did not vote, sorted by origin.
 std::vector<Neighbour> more_cases(const DecisionBasis& basis, const CaseBase& cases) {
   std::vector<Neighbour> more = retrieve(cases, basis.episode.features, std::numeric_limits<int>::max(),
                                          cases.metric().near_similarity);
@@ -75,7 +72,7 @@ std::vector<Neighbour> more_cases(const DecisionBasis& basis, const CaseBase& ca
   std::stable_sort(more.begin(), more.end(), [](const Neighbour& a, const Neighbour& b) {
     return origin_of(*a.found) < origin_of(*b.found);
   });
-  more.resize(static_cast<std::size_t>(std::min(kMoreCases, std::ssize(more))));
+  more.resize(std::min<std::size_t>(more.size(), 3));
   return more;
 }
 

@@ -100,10 +100,12 @@ Identification with_noise_of(Identification identification, const OneStepModel& 
 }
 
 Error predictions_diverge(double period_s) {
-  constexpr auto kMessage =
-      "no robot predicts their motion over one sample period of {:.3g} s. State how the torque acts between "
-      "samples ([log] torque_between_samples), or give logs with slower moves or a shorter sample period";
-  return {ErrorCode::input, "the healthy logs", fmt::format(kMessage, period_s)};
+  return {
+      ErrorCode::input, "the healthy logs",
+      fmt::format("no robot predicts their motion over one sample period of {:.3g} s. State how the torque "
+                  "acts between samples ([log] torque_between_samples), or give logs with slower moves or a "
+                  "shorter sample period",
+                  period_s)};
 }
 
 }  // namespace

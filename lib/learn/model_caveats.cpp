@@ -15,7 +15,6 @@ namespace {
 constexpr double kBlind = 1.0 / 3.0;  // found: below it, the absence of findings has no meaning
 constexpr double kUsual = 0.8;        // found: below it, a minor doubt
 constexpr double kNamed = 0.6;        // named right or as an alternative: below it, a minor doubt
-constexpr int kMostFalseAlarms = 1;   // in all simulated healthy runs: more are not by chance
 
 void doubt_friction(const ParameterEstimate& parameter, ModelCaveats& doubts) {
   const bool viscous = parameter.name.rfind("fv_", 0) == 0, coulomb = parameter.name.rfind("fc_", 0) == 0;
@@ -60,7 +59,7 @@ ModelCaveats caveats_of(const Validation& validation, bool has_relations) {
     doubts.minor.push_back(fmt::format("it misses {} of {} simulated faults", runs - found, runs));
   if (found >= kBlind * runs && named < kNamed * runs)
     doubts.minor.push_back(fmt::format("it names only {} of {} simulated faults correctly", named, runs));
-  if (validation.false_alarms > kMostFalseAlarms)
+  if (validation.false_alarms > 1)  // a single one in all simulated healthy runs is by chance
     doubts.minor.push_back(fmt::format("it raises {} in {:.2f} h of simulated healthy running",
                                        counted(validation.false_alarms, "false alarm"),
                                        validation.healthy_hours));

@@ -19,10 +19,7 @@
 namespace faultline {
 namespace {
 
-constexpr double kSecondsPerHour = 3600.0;
-constexpr int kFewestRunRows = 2;  // of a simulated log, that can be diagnosed
-constexpr int kRowsAtATime = 64;   // rows of a segment of a simulated log
-constexpr double kSurely = 0.9;    // share of the logs in which a size must be found
+constexpr double kSurely = 0.9;  // share of the logs in which a size must be found
 
 bool alarmed_early(const MonitoredRun& run) {
   return std::any_of(run.log.episodes.begin(), run.log.episodes.end(),
@@ -60,10 +57,12 @@ LabelledResiduals labelled_residuals(const TwinRun& run, const ResidualGenerator
 }
 
 Error runs_diverge(double period_s) {
-  constexpr auto kMessage =
-      "simulated runs of the identified robot diverge within a few sample periods of {:.3g} s: the motion "
-      "between samples is not determined. Give logs with slower moves or a shorter sample period";
-  return {ErrorCode::input, "the healthy logs", fmt::format(kMessage, period_s)};
+  return {
+      ErrorCode::input, "the healthy logs",
+      fmt::format("simulated runs of the identified robot diverge within a few sample periods of {:.3g} s: "
+                  "the motion between samples is not determined. Give logs with slower moves or a shorter "
+                  "sample period",
+                  period_s)};
 }
 
 /// Smallest size of a label that is found in nine of ten logs; NaN if there is none.
@@ -117,7 +116,7 @@ TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::v
   const auto count = static_cast<int>(labels.size());
   parallel_steps("simulating faults", count, options.threads, progress, [&](int i) {
     TwinRun run = twin_run(twin, labels[i], options.first_seed + static_cast<std::uint64_t>(i));
-    if (run.log.rows() < kFewestRunRows) throw runs_diverge(twin.sample_period_s);
+    if (run.log.rows() < 2) throw runs_diverge(twin.sample_period_s);
     MonitoredRun& out = study.runs[i];
     out.label = run.label;
     out.onset_s = run.onset_s;
@@ -125,7 +124,7 @@ TwinStudy monitored_twin_runs(const Twin& twin, const Model& model, const std::v
     out.origin = kSimulatedOrigin;
     out.size = size_of(run);
     if (options.keep_residuals) study.residuals[i] = labelled_residuals(run, model.residual);
-    MemorySource source(std::move(run.log), "simulated", kRowsAtATime);
+    MemorySource source(std::move(run.log), "simulated", 64);
     out.log =
         options.at_known_times ? monitor_at(source, rigid, run.onset_s, run.end_s) : monitor(source, rigid);
   });
@@ -172,7 +171,7 @@ Validated validate(std::span<const MonitoredRun> faulty, std::span<const Monitor
     validation.rows.push_back(row);
   }
   for (const MonitoredRun& run : healthy) {
-    validation.healthy_hours += run.length_s / kSecondsPerHour;
+    validation.healthy_hours += run.length_s / 3600;
     validation.false_alarms += static_cast<int>(run.log.episodes.size());
   }
   validation.raw_confidence_error = calibration_error(out.judged);

@@ -29,22 +29,22 @@ constexpr Range kAnything{-1e15, 1e15}, kPositive{0.0, 1e12}, kSigned{-1e12, 1e1
 constexpr double kLargestOfRobot = 1e9;  // m, kg, kg m^2, N m
 
 /// Ranges of values that are only reported, never computed with; those that no log determines may be huge.
-constexpr Range kTold{-1e100, 1e100}, kToldPositive{0.0, 1e100};
+constexpr Range kReported{-1e100, 1e100}, kReportedPositive{0.0, 1e100};
 
 /// The first matching entry applies.
 constexpr std::array kRanges = {
     PlacedRange{"/sample_period_s", kPeriod},
     PlacedRange{"/sources/*/rows", {0.0, 1e15}},
-    PlacedRange{"/identification/base_parameters/*/std", kToldPositive},
-    PlacedRange{"/identification/base_parameters", kTold},
-    PlacedRange{"/identification/physical_parameters/*/std", kToldPositive},
-    PlacedRange{"/identification/physical_parameters", kTold},
-    PlacedRange{"/identification/condition_number", kToldPositive},
+    PlacedRange{"/identification/base_parameters/*/std", kReportedPositive},
+    PlacedRange{"/identification/base_parameters", kReported},
+    PlacedRange{"/identification/physical_parameters/*/std", kReportedPositive},
+    PlacedRange{"/identification/physical_parameters", kReported},
+    PlacedRange{"/identification/condition_number", kReportedPositive},
     PlacedRange{"/identification/fit_r2", {-1e100, 1.0}},
     PlacedRange{"/identification/held_out_r2", {-1e100, 1.0}},
     PlacedRange{"/identification/terms/*/joint", kJoint},
     PlacedRange{"/identification/torque_delay_s", {-10.0, 10.0}},
-    PlacedRange{"/identification", kToldPositive},
+    PlacedRange{"/identification", kReportedPositive},
     PlacedRange{"/twin", {0.0, 1e6}},
     PlacedRange{"/validation/raw_confidence_error", kShare},
     PlacedRange{"/validation/confidence_error", kShare},

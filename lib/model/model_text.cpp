@@ -13,7 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchemaName = "faultline/model/";
-constexpr const char* kEnd = "\n}";  // end of the JSON text without digest
 constexpr const char *kBeforeDigest = ",\n \"digest\": \"", *kAfterDigest = "\"\n}\n";
 
 std::string with_digest(const std::string& before) {
@@ -70,7 +69,7 @@ std::string model_schema(int version) { return kSchemaName + std::to_string(vers
 
 std::string sealed_model_text(const Json& content) {
   const std::string text = content.dump(1);
-  return with_digest(text.substr(0, text.size() - std::string(kEnd).size()));
+  return with_digest(text.substr(0, text.rfind("\n}")));
 }
 
 nlohmann::json read_model_text(const std::string& text, const std::string& where) {

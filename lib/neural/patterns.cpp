@@ -26,11 +26,9 @@ void check_finite(const Eigen::MatrixXd& values, const char* what, const char* w
             fmt::format("{} {} of pattern {} is not finite; leave such patterns out", what, row, column));
 }
 
-/// A relative spread below this is rounding error.
-constexpr double kNoSpread = 1e-12;
-
+/// A relative spread below 1e-12 is rounding error.
 double factor_for(double half_spread, double size) {
-  return half_spread > kNoSpread * std::max(std::fabs(size), 1e-300) ? 1.0 / half_spread : 1.0;
+  return half_spread > 1e-12 * std::max(std::fabs(size), 1e-300) ? 1.0 / half_spread : 1.0;
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kUsualMemory_s = 0.03;
 constexpr double kFinestStep = 0.25;  // of the correlation time; the random torque hardly changes in it
 
 }  // namespace
@@ -18,7 +17,7 @@ Drives::Drives(int joints, const DriveSpec& spec, Random random)
     : gain_(or_all(spec.gain, joints, 0.0)),
       offset_(or_all(spec.offset, joints, 0.0)),
       roughness_(or_all(spec.roughness, joints, 0.0)),
-      memory_s_(or_all(spec.roughness_memory_s, joints, kUsualMemory_s)),
+      memory_s_(or_all(spec.roughness_memory_s, joints, 0.03)),
       rough_(joints, 0.0),
       random_(random) {
   for (int j = 0; j < joints; ++j)

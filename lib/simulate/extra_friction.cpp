@@ -11,8 +11,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kSteepestOfBell = 0.858;  // largest slope of exp(-x^2)
-
 /// Throws Error(usage) if a joint with a positive `share` has no positive number in `beside`.
 void check_beside(int joints, const std::vector<double>& share, const std::vector<double>& beside,
                   const char* key, const char* what) {
@@ -62,8 +60,8 @@ double ExtraFriction::torque(int joint, double speed, const Friction& now) const
 Friction ExtraFriction::worst(int joint, Friction now) const {
   now.viscous += cold_[joint] * healthy_[joint].viscous;
   now.coulomb += cold_[joint] * healthy_[joint].coulomb;
-  if (breakaway_[joint] > 0.0) {
-    now.viscous += kSteepestOfBell * breakaway_[joint] * now.coulomb / breakaway_speed_[joint];
+  if (breakaway_[joint] > 0.0) {  // 0.858 is the largest slope of exp(-x^2)
+    now.viscous += 0.858 * breakaway_[joint] * now.coulomb / breakaway_speed_[joint];
     now.coulomb *= 1.0 + breakaway_[joint];
   }
   return now;

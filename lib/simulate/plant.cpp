@@ -25,7 +25,6 @@ constexpr double kVibrationTimesStep = 0.25;
 
 /// Highest number of sub-steps in max_step_s that stiff friction may require.
 constexpr double kMostSubSteps = 10.0;
-constexpr double kLively = 10.0;  // acceleration for usual_torque(), rad/s^2 or m/s^2
 
 /// Returns the largest diagonal of M^-1 for each joint over some postures.
 JointVector mobility(const FastDynamics& dynamics) {
@@ -43,11 +42,12 @@ JointVector mobility(const FastDynamics& dynamics) {
   return most;
 }
 
-/// Returns a usual torque of each drive: gravity at q = 0 plus the torque for an acceleration of kLively.
+/// Returns a usual torque of each drive: gravity at q = 0 plus the torque for an acceleration of
+/// 10 rad/s^2 or m/s^2.
 JointVector usual_torque(const Chain& chain) {
   const JointVector zero = JointVector::Zero(chain.joints());
   const JointVector weight = rigid_body_torque(chain, zero, zero, zero, chain.gravity);
-  return kLively * inertia_matrix(chain, zero).diagonal() + weight.cwiseAbs();
+  return 10.0 * inertia_matrix(chain, zero).diagonal() + weight.cwiseAbs();
 }
 
 }  // namespace

@@ -17,7 +17,6 @@ namespace faultline {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCurvePercent = 100.0;
 constexpr double kLeastFriction = 0.05;  // share of the identified friction: friction is never negative
 constexpr double kGapPeriods = 5.5;      // a longer step ends a stretch: the motion in it is not known
 constexpr int kMostMissingRows = 4;      // successive incomplete rows; more are a gap, too
@@ -45,12 +44,12 @@ RobotOfTheDay robot_of_the_day(const Model& model, const std::vector<ConditionIt
     const int j = item.joint - 1;
     if (!std::isfinite(item.value)) continue;
     if (item.kind == DayEffectKind::friction) {
-      const double scale = std::max(1.0 + item.value / kCurvePercent, kLeastFriction);
+      const double scale = std::max(1.0 + item.value / 100.0, kLeastFriction);
       robot.chain.friction[j].viscous *= scale;
       robot.chain.friction[j].coulomb *= scale;
       robot.chain.friction[j].load *= scale;
     } else if (item.kind == DayEffectKind::torque_gain) {
-      robot.gain[j] += item.value / kCurvePercent;
+      robot.gain[j] += item.value / 100.0;
     } else if (item.kind == DayEffectKind::torque_offset) {
       robot.offset[j] += item.value;
     }

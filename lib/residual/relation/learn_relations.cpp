@@ -14,16 +14,14 @@ namespace {
 
 constexpr double kActuatorMemory_s = 0.03;  // length of the lags: of a current loop and its filter
 constexpr double kLawMemory_s = 0.01;       // length of the lags: of a controller's filters
-constexpr int kFewestLags = 2, kMostLags = 16;
+constexpr int kFewestLags = 2, kMostLags = 16, kMostTrackingLags = 8;
 
-constexpr double kHelps = 0.75;         // ratio of middle_deviation(): below it the speed is used
+constexpr double kHelps = 0.75;  // ratio of middle_deviation(): below it speed or a longer memory is used
 constexpr double kOfPlain = 1.0 / 3.0;  // ratio of the limits with speed to those without, at least
 constexpr double kKeepsGain = 0.8;      // ratio of the command's weights: below it the speed is not used
 
 constexpr double kMemories_s[] = {0.1, 0.4, 1.6};  // of position loops, from stiff to soft
-constexpr int kTrackingFewestLags = 2, kTrackingMostLags = 8;
-constexpr double kTrackingHelps = 0.75;  // ratio of middle_deviation(): below it a longer memory is used
-constexpr double kRateHelps = 0.5;       // the same ratio for a rate limit
+constexpr double kRateHelps = 0.5;                 // the same ratio for a rate limit
 constexpr double kFollows = 0.5;        // share of the target's variance that its reference explains at least
 constexpr double kFollowsWell = 0.999;  // share of the same from which on no rate limit is tried
 constexpr double kSlope_s = 0.1;        // time over which rates are measured
@@ -31,8 +29,8 @@ constexpr double kLeastRate = 0.5, kMostRate = 1.1;  // bounds of a rate limit, 
 constexpr int kRounds = 9;
 
 void set_memory(SignalRelation& relation, double memory_s) {
-  const int rows = std::max(kTrackingFewestLags, static_cast<int>(std::ceil(memory_s / relation.period_s)));
-  relation.stride = (rows + kTrackingMostLags - 1) / kTrackingMostLags;
+  const int rows = std::max(kFewestLags, static_cast<int>(std::ceil(memory_s / relation.period_s)));
+  relation.stride = (rows + kMostTrackingLags - 1) / kMostTrackingLags;
   relation.lags = (rows + relation.stride - 1) / relation.stride;
 }
 
@@ -85,7 +83,7 @@ bool fit_tracking(std::span<LogSource* const> logs, const std::vector<Fold>& fol
   for (const double memory_s : kMemories_s) {
     SignalRelation candidate = relation;
     set_memory(candidate, memory_s);
-    if (!is_better(candidate, kTrackingHelps)) continue;
+    if (!is_better(candidate, kHelps)) continue;
     best = std::move(candidate);
     fits = true;
   }

@@ -207,10 +207,10 @@ bool RelationDetector::says_something() const {
   if (means_.full() <= window_) return false;
   const RelationSums& s = deviating_;
   if (!(s.predicted_square > 0.0 && s.square > 0.0 && s.rows > 0)) return true;
-  const double by_share = s.product * s.product / (s.predicted_square * s.square);
+  const double by_share = s.share_explains();
   const double by_offset = s.residual * s.residual / (static_cast<double>(s.rows) * s.square);
   const bool is_share = by_share > kShareExplains && 1.0 - by_share < kBetterThanOffset * (1.0 - by_offset);
-  const double expected = std::abs(s.product / s.predicted_square) * predicted_.mean(window_);
+  const double expected = std::abs(s.share()) * predicted_.mean(window_);
   return !is_share || expected > allowed(window_);
 }
 

@@ -19,9 +19,6 @@ constexpr double kBeyondSeen = 0.2;  // share of a term's range by which its lea
 // For a control law on held-out rows: the part of an integrator differs between days with friction and load.
 constexpr double kLeastR2 = 0.999;
 
-constexpr std::size_t kMiddleWindow = 1;
-
-constexpr double kSecondsPerHour = 3600.0;
 constexpr int kFewestWindows = 10;      // windows in succession that healthy logs must fill for a limit
 constexpr double kLeastStd = 1e-5;      // least std of a mean, of target_scale(): for logs without noise
 constexpr double kOfLargestSeen = 1.5;  // least limit over the largest mean of healthy logs: a margin
@@ -134,7 +131,7 @@ void add_window_means(std::span<LogSource* const> logs, const Fold& fold, const 
 
 /// Number of standard deviations that a mean over a window exceeds by chance at this rate.
 double stds_of(double alarms_per_hour, double window_s) {
-  const double chance = alarms_per_hour * window_s / kSecondsPerHour;
+  const double chance = alarms_per_hour * window_s / 3600.0;
   double low = 0.0, high = 20.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
@@ -173,7 +170,7 @@ void widen_terms(SignalRelation& relation) {
 }  // namespace
 
 double middle_deviation(const SignalRelation& relation) {
-  return relation.windows[std::min<std::size_t>(kMiddleWindow, relation.windows.size() - 1)].std;
+  return relation.windows[std::min<std::size_t>(1, relation.windows.size() - 1)].std;
 }
 
 double target_scale(const SignalRelation& relation) {

@@ -25,7 +25,8 @@ std::vector<Fold> folds_of(std::span<LogSource* const> logs);
 bool fit(std::span<LogSource* const> logs, const std::vector<Fold>& folds, double alarms_per_hour,
          SignalRelation& relation);
 
-/// Standard deviation of the mean residual over a middle window, in the target's unit: the quality of a fit.
+/// Standard deviation of the mean residual over the second shortest window, in the target's unit: the quality
+/// of a fit.
 double middle_deviation(const SignalRelation& relation);
 
 /// Largest torque of the healthy logs; for tracking the range of position or velocity. In the target's

@@ -14,8 +14,6 @@ constexpr int kMostBridged = 5;  // missing rows in succession that are interpol
 
 constexpr double kSettle_s = 0.15;  // not judged after an input outside the learned range, such as a jump
 
-constexpr double kPause_s = 0.2;
-
 }  // namespace
 
 LagLine::LagLine(const SignalRelation& relation)
@@ -122,7 +120,7 @@ WindowedMeans::WindowedMeans(std::vector<int> rows)
     : rows_(std::move(rows)), ring_(rows_.back()), sum_(rows_.size()) {}
 
 void WindowedMeans::add(double value, double time_s) {
-  if (time_s - last_s_ > kPause_s) restart();
+  if (time_s - last_s_ > 0.2) restart();
   last_s_ = time_s;
   for (std::size_t w = 0; w < rows_.size(); ++w) {
     const std::size_t size = ring_.size();

@@ -29,9 +29,6 @@ std::optional<Quantity> torque_of(const Log& log, Quantity quantity, bool tau_is
   return std::nullopt;
 }
 
-constexpr int kRelationMostLags = 100, kMostStride = 10'000;
-constexpr std::size_t kMostWindows = 100;
-
 /// Name of a quantity without the number of a joint, such as "tau_meas".
 std::string name_of(Quantity quantity) {
   std::string name = to_string(Channel{quantity, 1});
@@ -63,13 +60,13 @@ bool all_finite(const std::vector<double>& values) {
 
 bool fits(const SignalRelation& relation, int joints) {
   const bool shape = relation.joint >= 0 && relation.joint < joints && !relation.inputs.empty() &&
-                     relation.lags >= 0 && relation.lags <= kRelationMostLags && relation.stride >= 1 &&
-                     relation.stride <= kMostStride && relation.rate_limit >= 0.0 &&
+                     relation.lags >= 0 && relation.lags <= 100 && relation.stride >= 1 &&
+                     relation.stride <= 10'000 && relation.rate_limit >= 0.0 &&
                      static_cast<int>(relation.weights.size()) == relation.weights_needed() &&
                      relation.term_low.size() + 1 == relation.weights.size() &&
                      relation.term_high.size() == relation.term_low.size();
   const bool windows =
-      !relation.windows.empty() && relation.windows.size() <= kMostWindows &&
+      !relation.windows.empty() && relation.windows.size() <= 100 &&
       std::all_of(relation.windows.begin(), relation.windows.end(), [](const WindowLimit& w) {
         return w.window_s > 0.0 && w.std > 0.0 && w.limit > 0.0 && w.limit < 1e12;
       });
