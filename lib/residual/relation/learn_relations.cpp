@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "lib/core/golden_section.hpp"
 #include "lib/log/log_channels.hpp"
@@ -28,10 +29,11 @@ constexpr double kSlope_s = 0.1;        // time over which rates are measured
 constexpr double kLeastRate = 0.5, kMostRate = 1.1;  // bounds of a rate limit, of the largest rate in logs
 constexpr int kRounds = 9;
 
-void set_memory(SignalRelation& relation, double memory_s) {
+SignalRelation with_memory(SignalRelation relation, double memory_s) {
   const int rows = std::max(kFewestLags, static_cast<int>(std::ceil(memory_s / relation.period_s)));
   relation.stride = (rows + kMostTrackingLags - 1) / kMostTrackingLags;
   relation.lags = (rows + relation.stride - 1) / relation.stride;
+  return relation;
 }
 
 double largest_rate(std::span<LogSource* const> logs, const SignalRelation& relation) {
@@ -70,38 +72,31 @@ std::vector<SignalRelation> tracking_candidates(const Log& log, double period_s)
   return out;
 }
 
-/// Fits one of them, with the memory and the rate limit that explain the healthy logs best. Returns false if
-/// the motion does not follow the reference.
-bool fit_tracking(std::span<LogSource* const> logs, const std::vector<Fold>& folds, double alarms_per_hour,
-                  SignalRelation& relation) {
-  bool fits = false;
-  SignalRelation best = relation;
-  const auto is_better = [&](SignalRelation& candidate, double helps) {
-    return fit(logs, folds, alarms_per_hour, candidate) &&
-           (!fits || middle_deviation(candidate) < helps * middle_deviation(best));
+/// Returns one of them, fitted with the memory and the rate limit that explain the healthy logs best; nullopt
+/// if the motion does not follow the reference.
+std::optional<SignalRelation> fitted_tracking(std::span<LogSource* const> logs,
+                                              const std::vector<Fold>& folds, double alarms_per_hour,
+                                              const SignalRelation& relation) {
+  std::optional<SignalRelation> best;
+  const auto try_next = [&](SignalRelation candidate, double helps) {
+    std::optional<SignalRelation> found = fitted(logs, folds, alarms_per_hour, std::move(candidate));
+    if (found && (!best || middle_deviation(*found) < helps * middle_deviation(*best)))
+      best = std::move(found);
   };
-  for (const double memory_s : kMemories_s) {
-    SignalRelation candidate = relation;
-    set_memory(candidate, memory_s);
-    if (!is_better(candidate, kHelps)) continue;
-    best = std::move(candidate);
-    fits = true;
-  }
-  if (!fits) return false;
-  const double rate = best.r2 < kFollowsWell ? largest_rate(logs, best) : 0.0;
+  for (const double memory_s : kMemories_s) try_next(with_memory(relation, memory_s), kHelps);
+  if (!best) return std::nullopt;
+  const double rate = best->r2 < kFollowsWell ? largest_rate(logs, *best) : 0.0;
   if (rate > 0.0) {
-    SignalRelation limited = relation;
-    set_memory(limited, kMemories_s[0]);
-    const auto straying = [&](double share) {
+    SignalRelation limited = with_memory(relation, kMemories_s[0]);
+    const auto deviation = [&](double share) {
       limited.rate_limit = share * rate;
-      return fit(logs, folds, alarms_per_hour, limited) ? middle_deviation(limited)
-                                                        : std::numeric_limits<double>::infinity();
+      const std::optional<SignalRelation> found = fitted(logs, folds, alarms_per_hour, limited);
+      return found ? middle_deviation(*found) : std::numeric_limits<double>::infinity();
     };
-    limited.rate_limit = golden_section(kLeastRate, kMostRate, kRounds, straying) * rate;
-    if (is_better(limited, kRateHelps)) best = std::move(limited);
+    limited.rate_limit = golden_section(kLeastRate, kMostRate, kRounds, deviation) * rate;
+    try_next(std::move(limited), kRateHelps);
   }
-  relation = std::move(best);
-  return relation.r2 >= kFollows;
+  return best->r2 >= kFollows ? best : std::nullopt;
 }
 
 int lags_of(double memory_s, double period_s) {
@@ -166,26 +161,25 @@ std::vector<SignalRelation> learn_relations(std::span<LogSource* const> healthy,
   Log first;
   healthy.front()->rewind();
   if (!healthy.front()->next(first)) return {};
-  std::vector<SignalRelation> relations = candidates(first, options);
-  if (relations.empty()) return {};
+  const std::vector<SignalRelation> to_fit = candidates(first, options);
+  if (to_fit.empty()) return {};
   const std::vector<Fold> folds = folds_of(healthy);
-  std::erase_if(relations, [&](SignalRelation& relation) {
-    return relation.kind == RelationKind::tracking
-               ? !fit_tracking(healthy, folds, options.alarms_per_hour, relation)
-               : !fit(healthy, folds, options.alarms_per_hour, relation);
-  });
-  for (SignalRelation& relation : relations) {
-    SignalRelation more = with_speed(relation);
-    const bool drive = relation.kind == RelationKind::actuator;
-    if (drive && fit(healthy, folds, options.alarms_per_hour, more) && speed_helps(more, relation))
-      relation = limited_by(std::move(more), relation);
-  }
-  for (SignalRelation& relation : relations) {
-    for (WindowLimit& window : relation.windows)
-      window.limit = std::max(window.limit, options.least_share * target_scale(relation));
-    if (relation.kind != RelationKind::actuator) continue;
-    relation.offset_range = options.torque_offset * target_scale(relation);
-    relation.gain_range = options.torque_gain;
+  std::vector<SignalRelation> relations;
+  for (const SignalRelation& candidate : to_fit) {
+    std::optional<SignalRelation> relation =
+        candidate.kind == RelationKind::tracking
+            ? fitted_tracking(healthy, folds, options.alarms_per_hour, candidate)
+            : fitted(healthy, folds, options.alarms_per_hour, candidate);
+    if (!relation) continue;
+    if (relation->kind == RelationKind::actuator) {
+      const auto more = fitted(healthy, folds, options.alarms_per_hour, with_speed(*relation));
+      if (more && speed_helps(*more, *relation)) relation = limited_by(*more, *relation);
+      relation->offset_range = options.torque_offset * target_scale(*relation);
+      relation->gain_range = options.torque_gain;
+    }
+    for (WindowLimit& window : relation->windows)
+      window.limit = std::max(window.limit, options.least_share * target_scale(*relation));
+    relations.push_back(*std::move(relation));
   }
   return relations;
 }

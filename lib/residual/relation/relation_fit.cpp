@@ -191,8 +191,8 @@ std::vector<Fold> folds_of(std::span<LogSource* const> logs) {
   return folds;
 }
 
-bool fit(std::span<LogSource* const> logs, const std::vector<Fold>& folds, double alarms_per_hour,
-         SignalRelation& relation) {
+std::optional<SignalRelation> fitted(std::span<LogSource* const> logs, const std::vector<Fold>& folds,
+                                     double alarms_per_hour, SignalRelation relation) {
   relation.low = std::numeric_limits<double>::infinity();
   relation.high = -relation.low;
   relation.term_low.assign(relation.weights_needed() - 1, relation.low);
@@ -200,24 +200,24 @@ bool fit(std::span<LogSource* const> logs, const std::vector<Fold>& folds, doubl
   Moments all(relation.weights_needed());
   std::vector<Moments> parts;
   for (const Fold& fold : folds) all += parts.emplace_back(moments_of(logs, fold, relation));
-  if (all.rows < kFewestRows * relation.weights_needed()) return false;
+  if (all.rows < kFewestRows * relation.weights_needed()) return std::nullopt;
   WindowMeanStats straying(std::size(kRelationWindows_s));
   for (std::size_t f = 0; f < folds.size(); ++f) {
     const Moments rest = without(all, parts[f]);
     if (rest.rows < relation.weights_needed()) continue;
-    SignalRelation left_out = relation;
-    left_out.weights = weights_of(rest);
-    add_window_means(logs, folds[f], left_out, straying);
+    relation.weights = weights_of(rest);
+    add_window_means(logs, folds[f], relation, straying);
   }
   const double variance = all.square - all.sum * all.sum / static_cast<double>(all.rows);
-  if (!(variance > 0.0)) return false;
+  if (!(variance > 0.0)) return std::nullopt;
   relation.weights = weights_of(all);
   widen_terms(relation);
   relation.r2 = 1.0 - straying.residual_square / variance;
   relation.windows = limits_of(straying, window_rows(kRelationWindows_s, relation.period_s),
                                target_scale(relation), alarms_per_hour);
   const bool follows = relation.kind != RelationKind::control_law || relation.r2 >= kLeastR2;
-  return follows && !relation.windows.empty();
+  if (!follows || relation.windows.empty()) return std::nullopt;
+  return relation;
 }
 
 }  // namespace faultline

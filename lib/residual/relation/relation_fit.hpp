@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,10 +21,11 @@ struct Fold {
 /// Returns the healthy logs as folds, or pieces of them if they are few. Rewinds them.
 std::vector<Fold> folds_of(std::span<LogSource* const> logs);
 
-/// Fits weights by least squares over all folds, and limits to the residuals of each with the weights of the
-/// others. `relation` has kind, joint, target, inputs, lags and period. Returns false if it does not hold.
-bool fit(std::span<LogSource* const> logs, const std::vector<Fold>& folds, double alarms_per_hour,
-         SignalRelation& relation);
+/// Returns the relation, which has kind, joint, target, inputs, lags and period, with weights by least
+/// squares over all folds, and limits from the residuals of each with the weights of the others; nullopt if
+/// it does not hold.
+std::optional<SignalRelation> fitted(std::span<LogSource* const> logs, const std::vector<Fold>& folds,
+                                     double alarms_per_hour, SignalRelation relation);
 
 /// Standard deviation of the mean residual over the second shortest window, in the target's unit: the quality
 /// of a fit.
