@@ -83,11 +83,11 @@ int complete_rows(const Log& log) {
 void LogTally::take(const Log& segment, const LogSource& log, const Model& model) {
   check_channels(segment, log, model);
   assess(segment, quality);
-  if (rows == 0 && segment.rows() > 0) start_s = segment.time.front();
-  if (segment.rows() > 0) end_s = segment.time.back();
-  rows += segment.rows();
-  has_velocity = !segment.dq.empty();
-  judgeable_rows += complete_rows(segment);
+  if (facts.rows_used == 0 && segment.rows() > 0) facts.start_s = segment.time.front();
+  if (segment.rows() > 0) facts.end_s = segment.time.back();
+  facts.rows_used += segment.rows();
+  facts.has_velocity = !segment.dq.empty();
+  facts.judgeable_rows += complete_rows(segment);
 }
 
 /// Returns the joints, from 1, whose range is less than kHardly of that of the healthy logs.
@@ -112,18 +112,13 @@ LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& mod
   options.slides = sliding_joints(model.robot.chain);
   options.runs = log.identity().runs;
   const LogQuality quality = quality_of(tally.quality, options);
-  LogFacts facts;
+  LogFacts facts = tally.facts;
   facts.path = shown_path(log.identity().path);
   facts.sha256 = log.identity().sha256;
   facts.format = log.identity().format;
   facts.rows_read = log.identity().rows_read;
-  facts.rows_used = tally.rows;
-  facts.judgeable_rows = tally.judgeable_rows;
-  facts.start_s = tally.start_s;
-  facts.end_s = tally.end_s;
   facts.sample_period_s = quality.time.period_s;
   facts.joints = model.robot.joints();
-  facts.has_velocity = tally.has_velocity;
   facts.issues = log.issues();
   facts.runs = log.identity().runs;
   facts.resting = resting_joints(tally, model);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 
 #include "lib/diagnose/diagnosis.hpp"
@@ -23,11 +22,7 @@ int complete_rows(const Log& log);
 
 /// Counts what is read of a log, however it is judged.
 struct LogTally {
-  std::int64_t rows = 0;
-  double start_s = std::numeric_limits<double>::quiet_NaN();
-  double end_s = std::numeric_limits<double>::quiet_NaN();
-  std::int64_t judgeable_rows = 0;  ///< rows with a position and a torque for every joint
-  bool has_velocity = false;
+  LogFacts facts;         ///< rows, times and whether there are velocities, so far
   UnjudgedTime unjudged;  ///< of the log with its lost rows as empty ones
   QualityState quality;   ///< gaps, missing values, implausible units and the like
 
