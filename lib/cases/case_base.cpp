@@ -35,10 +35,12 @@ bool is_sane(double x) { return std::isnan(x) || std::abs(x) <= kLargestNumber; 
 
 bool is_share(double x) { return x >= 0.0 && x <= 1.0; }
 
-void mend_texts(Case& c) {
+/// Returns the case with texts in which bytes that are not UTF-8 are replaced.
+Case with_valid_texts(Case c) {
   for (std::string* text : {&c.what_was_done, &c.origin, &c.log_sha256, &c.features_by, &c.log_name, &c.robot,
                             &c.person, &c.date})
     *text = valid_utf8(*text);
+  return c;
 }
 
 constexpr double kOneOnset_s = 0.1;  // another model may estimate another onset of the same fault
@@ -102,7 +104,7 @@ CaseBase::CaseBase(Metric metric, std::vector<Case> cases)
       refuse_base("case ids must be above 0 and increase; " + std::to_string(c.id) + " does not");
     last = c.id;
     check(c);
-    mend_texts(c);
+    c = with_valid_texts(std::move(c));
   }
 }
 
@@ -149,8 +151,7 @@ Case& CaseBase::find(std::int64_t id) { return const_cast<Case&>(at(id)); }
 
 void CaseBase::take(Case c) {
   check(c);
-  mend_texts(c);
-  cases_.push_back(std::move(c));
+  cases_.push_back(with_valid_texts(std::move(c)));
 }
 
 std::int64_t CaseBase::retain(Case c) {
@@ -190,8 +191,7 @@ void CaseBase::reject(std::int64_t id, std::optional<FaultLabel> was, const std:
 void CaseBase::replace(Case c) {
   Case& there = find(c.id);
   check(c);
-  mend_texts(c);
-  there = std::move(c);
+  there = with_valid_texts(std::move(c));
 }
 
 void CaseBase::remove(std::int64_t id) { cases_.erase(cases_.begin() + (&at(id) - cases_.data())); }

@@ -20,7 +20,7 @@ double shared_deviation(double a, double b, const UsualFeature& usual) {
 
 void sort(std::vector<FeatureMatch>& matches) {
   std::stable_sort(matches.begin(), matches.end(),
-                   [](const FeatureMatch& a, const FeatureMatch& b) { return a.telling > b.telling; });
+                   [](const FeatureMatch& a, const FeatureMatch& b) { return a.importance > b.importance; });
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace faultline {
 struct FeatureMatch {
   std::size_t feature = 0;  ///< index in the metric
   double difference = 0.0;  ///< in scales; below 1 is common between cases of the same fault
-  double telling = 0.0;     ///< importance for a person, by which the matches are sorted
+  double importance = 0.0;  ///< for a person, by which the matches are sorted
 };
 
 /// The features that make two episodes similar or not, the most important first.

@@ -130,13 +130,13 @@ SqliteFile::SqliteFile(const std::string& path, SqliteMode mode, const std::stri
     fail(code);
   }
   sqlite3_busy_timeout(db_, 5000);  // ms to wait for the lock of another program
-  distrust_schema();
+  restrict_schema();
   if (mode != SqliteMode::create) limit_steps(path);
 }
 
 SqliteFile::~SqliteFile() { sqlite3_close(db_); }
 
-void SqliteFile::distrust_schema() {
+void SqliteFile::restrict_schema() {
   for (const int off : {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER,
                         SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_DQS_DDL, SQLITE_DBCONFIG_DQS_DML})
     sqlite3_db_config(db_, off, 0, nullptr);

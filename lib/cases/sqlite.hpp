@@ -18,7 +18,7 @@ std::vector<std::string> sqlite_files(const std::string& path);
 enum class SqliteMode { read_only, change, create };
 
 /// An open SQLite file; every failure throws Error(input), or Error(output) if writing failed, with the
-/// file's name and SQLite's reason in words. The file's schema is not trusted: its triggers and views do not
+/// file's name and SQLite's reason in words. The file's schema has no rights: its triggers and views do not
 /// run, its functions are restricted, and a statement is ended once all statements have taken far more steps
 /// than the size of the file explains.
 class SqliteFile {
@@ -38,7 +38,7 @@ class SqliteFile {
  private:
   friend class SqliteStatement;
   [[noreturn]] void fail(int code) const;
-  void distrust_schema();
+  void restrict_schema();
   void limit_steps(const std::string& path);
 
   std::string name_;

@@ -233,14 +233,14 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
   if (!options.keep_doubtful) refuse_grave(doubts);
   if (lack_torque(logs.sources()))
     return learn_tracking_alone(logs.sources(), labelled, robot, options.alarms_per_hour, progress);
-  ExplainedRobot trusted = consistent_robot(logs.sources(), robot,
-                                            {.identify = options.identify,
-                                             .limit_shift = limit_shift(options.alarms_per_hour),
-                                             .threads = options.threads},
-                                            part_of(progress, 0.0, kIdentified));
-  HealthyRobot& found = trusted.robot;
+  ExplainedRobot explained = consistent_robot(logs.sources(), robot,
+                                              {.identify = options.identify,
+                                               .limit_shift = limit_shift(options.alarms_per_hour),
+                                               .threads = options.threads},
+                                              part_of(progress, 0.0, kIdentified));
+  HealthyRobot& found = explained.robot;
   doubts.add(caveats_of(found.identification));
-  doubts.add({{}, trusted.doubts, {}});
+  doubts.add({{}, explained.doubts, {}});
   if (!options.keep_doubtful) refuse_grave(doubts);
   Learned out;
   Model& model = out.model;
@@ -252,7 +252,7 @@ Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> 
                                part_of(progress, kIdentified, kResidualsLearned));
   model.residual = out.residual.generator;
   model.has_velocity = !model.residual.shape.derive_velocity;
-  learn_from_twin(out, labelled, found.conversion, trusted.logs, options, progress);
+  learn_from_twin(out, labelled, found.conversion, explained.logs, options, progress);
   model.relations =
       learn_relations(acting, {.torque_is_commanded = model.robot.log.torque == TorqueMeaning::commanded,
                                .period_s = model.sample_period_s,

@@ -165,8 +165,8 @@ Pools draw(std::span<LogSource* const> logs, const TransitionShape& shape, std::
   return pools;
 }
 
-/// Sets the mean squared errors of what was learned.
-void measure_errors(const Transitions& check, LearnedResidual& learned) {
+/// Returns what was learned with its mean squared errors on these transitions.
+LearnedResidual with_errors(LearnedResidual learned, const Transitions& check) {
   const ResidualGenerator& generator = learned.generator;
   MatrixXd state(2 * generator.joints(), check.count());
   state << check.next_q, check.next_dq;
@@ -175,6 +175,7 @@ void measure_errors(const Transitions& check, LearnedResidual& learned) {
   const MatrixXd error = change - predicted_change(generator, check);
   learned.normalised_mse = (factor.asDiagonal() * error).squaredNorm() / static_cast<double>(error.size());
   learned.persistence_mse = (factor.asDiagonal() * change).squaredNorm() / static_cast<double>(change.size());
+  return learned;
 }
 
 ResidualGenerator untrained(const Robot& robot, const Survey& survey, const TransitionShape& shape,
@@ -252,8 +253,7 @@ LearnedResidual learn_residual_generator(std::span<LogSource* const> logs, const
   learned.generator = fit_residual_generator(untrained(identified, survey, shape, options), training,
                                              validation, options, progress);
   learned.generator.healthy = healthy_residuals(learned.generator, check);
-  measure_errors(check, learned);
-  return learned;
+  return with_errors(std::move(learned), check);
 }
 
 }  // namespace faultline

@@ -42,7 +42,7 @@ class ExplainMonitor {
   /// Share of the log whose rows count for the regression; 0 if no window could be explained.
   double judged_share() const { return read_s_ > 0.0 ? judged_s_ / read_s_ : 0.0; }
   /// By joint: noise level of the rows over that of the healthy logs, in the noisiest window.
-  const std::vector<double>& loudness() const { return noise_level_; }
+  const std::vector<double>& noise_level() const { return noise_level_; }
 
  private:
   void explain_window(bool is_followed);

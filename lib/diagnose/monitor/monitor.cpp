@@ -242,7 +242,7 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
           .stretches = explained.stretches(),
           .relations_judged_s = relations.judged_s(),
           .relations_beyond_s = relations.beyond_s(),
-          .roughness = explained.loudness(),
+          .roughness = explained.noise_level(),
           .judged_share = by_samples ? 1.0 : explained.judged_share()};
 }
 

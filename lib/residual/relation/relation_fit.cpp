@@ -111,20 +111,20 @@ struct WindowMeanStats {
 };
 
 void add_window_means(std::span<LogSource* const> logs, const Fold& fold, const SignalRelation& relation,
-                      WindowMeanStats& straying) {
+                      WindowMeanStats& stats) {
   RelationResidual residual(relation);
   WindowedMeans means(window_rows(kRelationWindows_s, relation.period_s));
   for_each_row(logs, fold, [&](const Log& segment, int k) {
     if (!has_signals(segment, relation)) return;
     const auto sample = residual.take(segment, k);
     if (!sample) return;
-    straying.residual_square += sample->residual * sample->residual;
+    stats.residual_square += sample->residual * sample->residual;
     means.add(sample->residual, sample->time);
     for (int w = 0; w < means.full(); ++w) {
       const double mean = means.mean(w);
-      straying.square[w] += mean * mean;
-      straying.largest[w] = std::max(straying.largest[w], std::abs(mean));
-      ++straying.count[w];
+      stats.square[w] += mean * mean;
+      stats.largest[w] = std::max(stats.largest[w], std::abs(mean));
+      ++stats.count[w];
     }
   });
 }
@@ -141,19 +141,18 @@ double stds_of(double alarms_per_hour, double window_s) {
 }
 
 /// Returns limits of the windows that healthy logs fill; the windows share the rate of alarms.
-std::vector<WindowLimit> limits_of(const WindowMeanStats& straying, const std::vector<int>& rows,
-                                   double scale, double alarms_per_hour) {
+std::vector<WindowLimit> limits_of(const WindowMeanStats& stats, const std::vector<int>& rows, double scale,
+                                   double alarms_per_hour) {
   std::vector<WindowLimit> windows;
-  for (std::size_t w = 0; w < straying.square.size(); ++w) {
-    if (straying.count[w] < kFewestWindows * rows[w]) break;
-    const double seen = std::sqrt(straying.square[w] / static_cast<double>(straying.count[w]));
+  for (std::size_t w = 0; w < stats.square.size(); ++w) {
+    if (stats.count[w] < kFewestWindows * rows[w]) break;
+    const double seen = std::sqrt(stats.square[w] / static_cast<double>(stats.count[w]));
     // The mean over a longer window has at least the deviation that white noise would have.
     const double white =
         w > 0 ? windows.back().std * std::sqrt(static_cast<double>(rows[w - 1]) / rows[w]) : 0.0;
     const double std = std::max({seen, white, kLeastStd * scale});
     const double stds = stds_of(alarms_per_hour / static_cast<double>(rows.size()), kRelationWindows_s[w]);
-    windows.push_back(
-        {kRelationWindows_s[w], std, std::max(stds * std, kOfLargestSeen * straying.largest[w])});
+    windows.push_back({kRelationWindows_s[w], std, std::max(stds * std, kOfLargestSeen * stats.largest[w])});
   }
   return windows;
 }
@@ -201,19 +200,19 @@ std::optional<SignalRelation> fitted(std::span<LogSource* const> logs, const std
   std::vector<Moments> parts;
   for (const Fold& fold : folds) all += parts.emplace_back(moments_of(logs, fold, relation));
   if (all.rows < kFewestRows * relation.weights_needed()) return std::nullopt;
-  WindowMeanStats straying(std::size(kRelationWindows_s));
+  WindowMeanStats stats(std::size(kRelationWindows_s));
   for (std::size_t f = 0; f < folds.size(); ++f) {
     const Moments rest = without(all, parts[f]);
     if (rest.rows < relation.weights_needed()) continue;
     relation.weights = weights_of(rest);
-    add_window_means(logs, folds[f], relation, straying);
+    add_window_means(logs, folds[f], relation, stats);
   }
   const double variance = all.square - all.sum * all.sum / static_cast<double>(all.rows);
   if (!(variance > 0.0)) return std::nullopt;
   relation.weights = weights_of(all);
   widen_terms(relation);
-  relation.r2 = 1.0 - straying.residual_square / variance;
-  relation.windows = limits_of(straying, window_rows(kRelationWindows_s, relation.period_s),
+  relation.r2 = 1.0 - stats.residual_square / variance;
+  relation.windows = limits_of(stats, window_rows(kRelationWindows_s, relation.period_s),
                                target_scale(relation), alarms_per_hour);
   const bool follows = relation.kind != RelationKind::control_law || relation.r2 >= kLeastR2;
   if (!follows || relation.windows.empty()) return std::nullopt;
