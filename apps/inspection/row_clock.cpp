@@ -8,7 +8,6 @@
 namespace faultline {
 namespace {
 
-constexpr double kFollows = 0.98;    // least correlation of the changes of position with the velocity
 constexpr double kOnePeriod = 0.05;  // relative; joints that differ by more are in different units
 
 }  // namespace
@@ -49,7 +48,7 @@ std::optional<RowClock::Estimate> RowClock::estimate() const {
   for (const VelocityCheck& check : joints_) {
     const VelocityAgreement joint = check.result();  // in units of rows
     if (joint.verdict == VelocityVerdict::not_judged) continue;
-    if (joint.correlation < kFollows || joint.factor <= 0.0) return {};
+    if (!joint.is_one_motion() || joint.factor <= 0.0) return {};
     moving.push_back(joint);
     periods.push_back(joint.factor);
   }

@@ -5,23 +5,21 @@
 #include <cmath>
 
 #include "apps/suggestion/robot_guess.hpp"
+#include "lib/log/quality.hpp"
 #include "lib/log/time_axis.hpp"
 #include "lib/log/units.hpp"
+#include "lib/log/velocity_check.hpp"
 
 namespace faultline {
 namespace {
 
-constexpr std::ptrdiff_t kGuessReach = 5;  // rows, of a change of position
-constexpr double kNear = 0.15;             // relative, for a ratio to be the one that units give
-constexpr double kAlike = 0.8;             // correlation of changes and velocities that can be compared
-constexpr double kMostRadians = 13.0;      // two turns
-constexpr double kFastestRadians = 20.0;   // rad/s
-constexpr double kRanAway = 4.0;           // factor of the range and speed of a runaway joint
+constexpr double kNear = 0.15;            // relative, for a ratio to be the one that units give
+constexpr double kFastestRadians = 20.0;  // rad/s
+constexpr double kRanAway = 4.0;          // factor of the range and speed of a runaway joint
 constexpr double kMostMetres = 3.0;
 constexpr double kLeastDegrees = 2.0;                     // span of a joint that moves
 constexpr double kCarries = 2.0;                          // mean torque by its deviation
 constexpr double kSlowestRate = 1.0, kFastestRate = 5e4;  // Hz
-constexpr double kLongestPeriod_s = 0.9;
 
 bool near(double value, double wanted) { return std::abs(value / wanted - 1.0) < kNear; }
 
@@ -52,9 +50,9 @@ bool is_plausible(const UnitPair& pair, const JointNumbers& joint, OtherAngles o
   if (is_length(position)) return span < kMostMetres && (joint.carries || position == "m");
   if (position == "deg")
     return joint.span >= kLeastDegrees &&
-           (others_in_degrees || joint.largest > kMostRadians || joint.fastest > kFastestRadians ||
+           (others_in_degrees || joint.largest > kHealthySpan_rad || joint.fastest > kFastestRadians ||
             std::string(pair.velocity).empty());
-  return joint.largest < most * kMostRadians && fastest < most * kFastestRadians;
+  return joint.largest < most * kHealthySpan_rad && fastest < most * kFastestRadians;
 }
 
 /// Correlation of velocity and torque without its mean: friction makes it positive if both have one sign.
@@ -73,7 +71,7 @@ double power_of(const std::vector<double>& dq, const std::vector<double>& tau, d
 JointNumbers joint_numbers(const std::vector<double>& time, const std::vector<double>& q,
                            const std::vector<double>& dq, const std::vector<double>& tau) {
   JointNumbers joint;
-  double low = INFINITY, high = -INFINITY, xx = 0.0, xy = 0.0, yy = 0.0, turn = NAN;
+  double low = INFINITY, high = -INFINITY, turn = NAN;
   for (const double value : q) low = std::fmin(low, value), high = std::fmax(high, value);
   if (!(low <= high)) return joint;
   joint.span = high - low;
@@ -87,15 +85,10 @@ JointNumbers joint_numbers(const std::vector<double>& time, const std::vector<do
     joint.path += std::abs(value - turn);
     turn = value;
   }
-  for (std::ptrdiff_t i = kGuessReach; i < std::ssize(dq); ++i) {
-    double integral = 0.0;
-    for (std::ptrdiff_t k = i - kGuessReach + 1; k <= i; ++k)
-      integral += 0.5 * (dq[k] + dq[k - 1]) * (time[k] - time[k - 1]);
-    const double change = q[i] - q[i - kGuessReach];
-    if (std::isnan(change) || std::isnan(integral) || !(time[i] > time[i - kGuessReach])) continue;
-    xx += integral * integral, xy += integral * change, yy += change * change;
-  }
-  if (xx > 0.0 && yy > 0.0 && std::abs(xy) > kAlike * std::sqrt(xx * yy)) joint.ratio = xy / xx;
+  VelocityCheck check;
+  if (!dq.empty()) check.add(time, q, dq);
+  if (const VelocityAgreement velocity = check.result(); velocity.is_one_motion())
+    joint.ratio = velocity.factor;
   double sum = 0.0, squares = 0.0, count = 0.0;
   for (const double value : tau)
     if (!std::isnan(value)) sum += value, squares += value * value, count += 1.0;
@@ -159,7 +152,7 @@ GuessedUnits guess_joint_units(const JointNumbers& joint, double time_factor,
       return units;
     }
   const bool degrees =
-      joint.largest > kMostRadians || (others == OtherAngles::degrees && joint.span >= kLeastDegrees);
+      joint.largest > kHealthySpan_rad || (others == OtherAngles::degrees && joint.span >= kLeastDegrees);
   const std::string large = joint.carries ? "mm" : "deg";
   const std::string position = !known_position.empty() ? known_position : degrees ? large : "";
   take(position,

@@ -125,9 +125,9 @@ Identification with_judged_columns(std::span<LogSource* const> logs, const Gathe
   for (int j = 0; j < id.space.joints(); ++j) {
     is_poor = is_poor || (!has_joint(gathered.windows.still, j) && !(id.fit_r2[j] > kGood));
     const auto found = std::find_if(gathered.surveys.begin(), gathered.surveys.end(),
-                                    [j](const LogSurvey& log) { return log.velocity[j].disagrees(); });
+                                    [j](const LogSurvey& log) { return log.velocity[j].is_other_unit(); });
     if (found != gathered.surveys.end())
-      id.take(FitStatus{IdentificationStatus::unexplained, disagreement_text(found->velocity[j], j + 1)});
+      id.take(FitStatus{IdentificationStatus::unexplained, other_unit_text(found->velocity[j], j + 1)});
   }
   if (!is_poor) return id;
   const Reinterpretation found = find_reinterpretation(logs, id.robot);

@@ -14,20 +14,10 @@
 namespace faultline {
 namespace {
 
-void add_value(ChannelSummary& channel, double value) {
-  ++channel.values;
-  if (value < channel.min) channel.min = value, channel.at_min = 0;
-  if (value > channel.max) channel.max = value, channel.at_max = 0;
-  channel.at_min += value == channel.min;
-  channel.at_max += value == channel.max;
-  if (!std::isnan(channel.last)) channel.path += std::abs(value - channel.last);
-  channel.last = value;
-}
-
 void add_values(ChannelSummary& channel, const std::vector<double>& values, const Log& segment) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isnan(values[i])) {
-      add_value(channel, values[i]);
+      channel.add(values[i]);
     } else if (channel.missing++ == 0) {
       channel.first_missing_row = segment.first_row + static_cast<std::int64_t>(i) + 1;
       channel.first_missing_s = segment.time[i];
@@ -39,7 +29,6 @@ void add_values(ChannelSummary& channel, const std::vector<double>& values, cons
 constexpr std::int64_t kFewestValues = 20;
 constexpr double kSlideSpan = 10.0;       // m; a position that spans more is hardly in m
 constexpr double kFastestMotion = 50.0;   // a velocity beyond it is hardly in rad/s
-constexpr double kLongestPeriod_s = 0.9;  // a longer sample period is hardly in seconds
 constexpr double kSaturatedShare = 0.01;  // least share of torque values at the largest or smallest
 constexpr double kFarAway = 5.0;          // times the largest span: no joint is that far from zero
 constexpr double kOneWay = 1.2;           // path to span of a joint that turns one way, with some noise
@@ -196,21 +185,6 @@ constexpr double kSameFactor = 0.1;  // relative spread of the joints' factors i
 
 bool near(double factor, double value) { return std::abs(factor / value - 1.0) < kNear; }
 
-std::string guess_of(double factor, bool turns, bool slides) {
-  if (factor < 0.0) return "the sign of one of them is wrong";
-  if (!slides && near(factor, kDegrees)) return "the position seems to be in degrees, the velocity in rad/s";
-  if (!slides && near(factor, 1.0 / kDegrees))
-    return "the velocity seems to be in deg/s, the position in rad";
-  if (!slides && near(factor, kRpm)) return "the velocity seems to be in rpm, the position in rad";
-  if (near(factor, 1e3))
-    return turns ? "the velocity's unit is 1000 times too large, or the time is in s and was treated as ms"
-                 : "the position seems to be in mm, the velocity in m/s, or the time in s and treated as ms";
-  if (near(factor, 1e-3))
-    return turns ? "the time seems to be in ms"
-                 : "the time seems to be in ms, or the velocity in mm/s and the position in m";
-  return "their units, a gear ratio or the sample period differ";
-}
-
 /// Returns the factor between positions and the integrals of velocities that all moving joints, at least two,
 /// share; 1 if they share none, or if a joint agrees or contradicts.
 double common_factor(const std::vector<VelocityAgreement>& agreements) {
@@ -258,7 +232,6 @@ void judge_one(const VelocityAgreement& agreement, int joint, const std::string&
                             agreement.correlation)});
 }
 
-constexpr double kOneMotion = 0.98;      // least correlation of position and velocity for a meaningful factor
 constexpr double kLeastOff = 0.004;      // difference of the factor from 1; healthy logs have less
 constexpr double kSurelyOff = 5.0;       // the same in standard deviations
 constexpr double kOneScale = 0.002;      // between factors of two joints; errors of integrals are smaller
@@ -278,7 +251,7 @@ void judge_velocities(const std::vector<VelocityAgreement>& agreements, const Ti
     const bool known = j < options.slides.size();
     const int joint = static_cast<int>(j) + 1;
     const std::string guess =
-        guess_of(agreements[j].factor, known && !options.slides[j], known && options.slides[j]);
+        velocity_guess(agreements[j].factor, known && !options.slides[j], known && options.slides[j]);
     const std::string why = all_alike ? "so do those of all moving joints, see the sample period"
                                       : guess + "; correct it in the robot file: [log.columns] " +
                                             to_string({Quantity::dq, joint});
@@ -290,7 +263,7 @@ void judge_motion_scale(const std::vector<VelocityAgreement>& agreements, Issues
   std::vector<VelocityAgreement> moving;
   std::vector<double> factors;
   for (const VelocityAgreement& joint : agreements)
-    if (joint.verdict == VelocityVerdict::agrees && joint.correlation > kOneMotion) {
+    if (joint.verdict == VelocityVerdict::agrees && joint.is_one_motion()) {
       moving.push_back(joint);
       factors.push_back(joint.factor);
     }
@@ -314,6 +287,31 @@ void judge_motion_scale(const std::vector<VelocityAgreement>& agreements, Issues
 }
 
 }  // namespace
+
+void ChannelSummary::add(double value) {
+  ++values;
+  if (value < min) min = value, at_min = 0;
+  if (value > max) max = value, at_max = 0;
+  at_min += value == min;
+  at_max += value == max;
+  if (!std::isnan(last)) path += std::abs(value - last);
+  last = value;
+}
+
+std::string velocity_guess(double factor, bool turns, bool slides) {
+  if (factor < 0.0) return "the sign of one of them is wrong";
+  if (!slides && near(factor, kDegrees)) return "the position seems to be in degrees, the velocity in rad/s";
+  if (!slides && near(factor, 1.0 / kDegrees))
+    return "the velocity seems to be in deg/s, the position in rad";
+  if (!slides && near(factor, kRpm)) return "the velocity seems to be in rpm, the position in rad";
+  if (near(factor, 1e3))
+    return turns ? "the velocity's unit is 1000 times too large, or the time is in s and was treated as ms"
+                 : "the position seems to be in mm, the velocity in m/s, or the time in s and treated as ms";
+  if (near(factor, 1e-3))
+    return turns ? "the time seems to be in ms"
+                 : "the time seems to be in ms, or the velocity in mm/s and the position in m";
+  return "their units, a gear ratio or the sample period differ";
+}
 
 void assess(const Log& segment, QualityState& state) {
   state.time.add(segment.time);

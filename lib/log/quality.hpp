@@ -15,6 +15,11 @@ namespace faultline {
 /// Code of the issue that positions, velocities and time of most joints differ by one common factor.
 inline constexpr const char* kScaledMotion = "motion_scaled";
 
+/// Range of a position, rad, that healthy joints of arms do not exceed: just above two turns.
+inline constexpr double kHealthySpan_rad = 13.0;
+/// A longer sample period is hardly in seconds.
+inline constexpr double kLongestPeriod_s = 0.9;
+
 /// Summary of one channel over the whole log.
 struct ChannelSummary {
   std::string name{};  ///< canonical, or the name of the column for an extra channel
@@ -31,6 +36,7 @@ struct ChannelSummary {
   double path = 0.0;  ///< sum of the absolute steps from value to value
   double last = std::numeric_limits<double>::quiet_NaN();
 
+  void add(double value);  ///< not NaN
   bool constant() const { return values > 1 && min == max; }
 };
 
@@ -58,6 +64,11 @@ struct QualityState {
   std::vector<ChannelSummary> channels;
   std::vector<VelocityCheck> velocity;
 };
+
+/// Returns the likely cause of a position that changes `factor` times as fast as its velocity, as a clause
+/// such as "the velocity seems to be in deg/s, the position in rad". A joint of unknown kind neither turns
+/// nor slides.
+std::string velocity_guess(double factor, bool turns, bool slides);
 
 void assess(const Log& segment, QualityState& state);
 LogQuality quality_of(const QualityState& state, const QualityOptions& options = {});

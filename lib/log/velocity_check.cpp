@@ -16,9 +16,13 @@ constexpr double kAboveNoise = 10.0;
 constexpr double kLeastMotion = 1e-4;
 constexpr double kFactorTolerance = 1.25;
 constexpr double kLowestCorrelation = 0.5;
+/// Least correlation of one motion; noise that is kAboveNoise times smaller lowers it to 0.99.
+constexpr double kOneMotion = 0.98;
 constexpr double kCheckGapSteps = 5.0;  // a longer step is a gap
 
 }  // namespace
+
+bool VelocityAgreement::is_one_motion() const { return std::abs(correlation) > kOneMotion; }
 
 void VelocityCheck::add(const std::vector<double>& time, const std::vector<double>& q,
                         const std::vector<double>& dq) {
@@ -31,8 +35,8 @@ void VelocityCheck::add_sample(double t, double q, double dq) {
     return;
   }
   const double since = t - last_.t;
-  if (run_ > 0 && usual_step_ > 0.0 && since > kCheckGapSteps * usual_step_)
-    run_ = window_samples_ = 0;  // the motion across a gap is unknown
+  if (run_ > 0 && (!(since > 0.0) || (usual_step_ > 0.0 && since > kCheckGapSteps * usual_step_)))
+    run_ = window_samples_ = 0;  // the motion across a gap, or to the row of a raw file before, is unknown
   else if (run_ > 0)
     usual_step_ = usual_step_ > 0.0 ? usual_step_ + 0.05 * (since - usual_step_) : since;
   const Sample now{t, q, dq};

@@ -19,6 +19,12 @@ struct VelocityAgreement {
   double factor = 0.0;
   double factor_std = 0.0;  ///< standard deviation of the factor
   double correlation = 0.0;
+
+  /// Whether both surely are one motion, so that the factor has a meaning. The position of a faulty sensor,
+  /// which jumps, drifts or sticks, has a lower correlation with the integral of the velocity.
+  bool is_one_motion() const;
+  /// Whether both are one motion in different units or with opposite signs.
+  bool is_other_unit() const { return verdict == VelocityVerdict::scaled && is_one_motion(); }
 };
 
 /// Compares the change of one joint's position with the integral of its velocity (trapezoids) over windows of

@@ -14,7 +14,6 @@ namespace faultline {
 namespace {
 
 constexpr std::int64_t kLookedAt = 50'000;  // first rows that are used: over a minute at 500 Hz, read fast
-constexpr double kHealthySpan = 13.0;  // rad, just above two turns: healthy joints of arms turn by no more
 
 /// Returns the issues of the first rows; none for another number of joints, which is reported elsewhere.
 Issues issues_of_beginning(LogSource& log, const QualityOptions& options) {
@@ -36,7 +35,7 @@ Issues issues_of_beginning(LogSource& log, const QualityOptions& options) {
 std::vector<std::string> implausible_units(std::span<LogSource* const> logs, const Robot& robot) {
   QualityOptions options;
   options.slides = sliding_joints(robot.chain);
-  options.position_span = kHealthySpan;
+  options.position_span = kHealthySpan_rad;
   std::vector<std::string> sentences;
   for (LogSource* log : logs) {
     const Issues issues = issues_of_beginning(*log, options);

@@ -7,7 +7,6 @@
 #include <limits>
 #include <span>
 
-#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/identify/motion/stretch.hpp"
 #include "lib/log/memory_source.hpp"
@@ -21,8 +20,7 @@ constexpr int kFewestSteps = 3;    // steps of a window, at least
 constexpr std::size_t kBlock = 6;  // windows of a block, for which one misfit is computed
 constexpr std::size_t kFewestOfBlock = 4;  // windows of a block, at least: two numbers are fitted to them
 constexpr double kFastest = 3.0;  // times the rms of the healthy speed: bound of the joint's largest speed
-constexpr double kOneQuantity = 0.98, kBalanceOtherUnit = 1.4;  // least correlation and factor of two units
-constexpr double kMoves = 0.05;            // share of the joint's largest speed: a slower window is at rest
+constexpr double kMoves = 0.05;   // share of the joint's largest speed: a slower window is at rest
 constexpr double kLeastRatioShare = 0.05;  // of the largest healthy torque: least variation for a ratio
 constexpr double kLeastShare = 0.1;        // of the same: least variation in a block
 constexpr double kLeastHeld = 0.3;         // of the same: least mean torque of a block that varies less
@@ -98,14 +96,6 @@ double misfit(const JointBalance& b, std::size_t first, std::size_t count, doubl
                                           : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Whether the velocity is the derivative of the position in another unit or sign. A lower correlation does
-/// not count: a position that jumps (a sensor's bias) also causes it.
-bool is_other_quantity(const DerivativeAgreement& velocity) {
-  return velocity.disagrees() && std::abs(velocity.correlation) > kOneQuantity &&
-         (velocity.factor < 0.0 ||
-          std::abs(elementary::log(velocity.factor)) > elementary::log(kBalanceOtherUnit));
-}
-
 }  // namespace
 
 std::vector<JointBalance> torque_balance(const Log& log, const KnownRobot& robot) {
@@ -115,7 +105,7 @@ std::vector<JointBalance> torque_balance(const Log& log, const KnownRobot& robot
   try {
     const LogSurvey survey = survey_log(source, chain.joints());
     for (int j = 0; j < chain.joints(); ++j)
-      if (is_other_quantity(survey.velocity[j])) out[j].velocity_factor = survey.velocity[j].factor;
+      if (survey.velocity[j].is_other_unit()) out[j].velocity_factor = 1.0 / survey.velocity[j].factor;
     std::vector<Stretch> stretches;
     source.rewind();
     for_each_stretch(source, 0, chain.joints(), survey, 1,

@@ -6,17 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
 
-#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/issue.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/motion/raw_stretch.hpp"
+#include "lib/log/channel_names.hpp"
 #include "lib/log/derived_velocity.hpp"
-#include "lib/log/velocity_check.hpp"
 
 namespace faultline {
 namespace {
@@ -25,13 +23,8 @@ constexpr int kNoiseRows = 1000;       // in the middle of a stretch: enough to 
 constexpr double kFewRepeats = 0.005;  // of the rows in motion: fewer repeats change nothing
 constexpr double kCaughtUp = 1.5;      // usual steps after a repeated row: the motion went on meanwhile
 
-constexpr double kSame = 1e-9;        // of the value: closer values are the same number
-constexpr double kLimitShare = 0.04;  // of the rows at an extreme value: more show a torque limit
-
-constexpr double kAlike = 0.9;        // correlation above which both are the same quantity
-constexpr double kFactorApart = 1.2;  // factor between them that is too large for noise
-constexpr double kNear = 0.05;        // distance from a known factor, in its logarithm
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+/// Of the rows at an extreme value: more show a torque limit. A few clipped rows change no fit.
+constexpr double kLimitShare = 0.04;
 
 /// Compares the steps of q before and after repeated rows, of the joint that moves most there.
 class RepeatCounter {
@@ -109,100 +102,54 @@ void leave_out_repeats(JointMotion& m) {
     }
 }
 
-bool is_near(double factor, double known) {
-  return std::abs(elementary::log(std::abs(factor) / known)) < kNear;
-}
-
 /// Compares by the change of position over windows, which neither noise nor a smoother bends. `motion` must
 /// have a velocity.
-DerivativeAgreement velocity_agreement(const JointMotion& motion) {
+VelocityAgreement velocity_agreement(const JointMotion& motion) {
   const auto values = [](const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); };
   std::vector<double> q = values(motion.q), dq = values(motion.dq);
   for (int k = 0; k < motion.rows(); ++k)
     if (motion.q_off[k] || motion.dq_off[k]) q[k] = dq[k] = std::nan("");
   VelocityCheck check;
   check.add(values(motion.time), q, dq);
-  const VelocityAgreement agreement = check.result();
-  if (agreement.verdict == VelocityVerdict::not_judged || agreement.factor == 0.0) return {};
-  return {1.0 / agreement.factor, agreement.correlation};
+  return check.result();
 }
 
-std::string channel(int joint) { return fmt::format("tau{}", joint + 1); }
+/// Adds an issue if the torque never changes or is at a limit in many rows: a command beyond the limit is not
+/// the torque that moved the robot.
+void judge_torque(const ChannelSummary& torque, Issues& issues) {
+  if (torque.constant()) {
+    issues.add(make_issue("constant_torque", Severity::warning,
+                          torque.name + " never changes: check that it is the right column", torque.name));
+    return;
+  }
+  const auto rows = static_cast<double>(torque.values);
+  for (const auto& [limit, times] : {std::pair{torque.max, torque.at_max}, {torque.min, torque.at_min}})
+    if (static_cast<double>(times) > kLimitShare * rows && limit != 0.0)
+      issues.add(
+          make_issue("torque_limit", Severity::warning,
+                     fmt::format("{} is at its limit of {:g} in {:.0f} % of the rows: a torque clipped by "
+                                 "the drive or by the log is not the torque that moved the robot",
+                                 torque.name, limit, 100.0 * static_cast<double>(times) / rows),
+                     torque.name));
+}
 
 }  // namespace
 
-bool DerivativeAgreement::disagrees() const {
-  return std::abs(correlation) > kAlike &&
-         (factor < 0.0 || std::abs(elementary::log(factor)) > elementary::log(kFactorApart));
-}
-
-std::string disagreement_text(const DerivativeAgreement& agreement, int joint) {
-  const double factor = agreement.factor;
-  std::string guess = "one of them is in another unit";
-  if (is_near(factor, kDegreesPerRadian) || is_near(factor, 1.0 / kDegreesPerRadian))
-    guess = "one of them is in degrees";
-  if (is_near(factor, 1e3) || is_near(factor, 1e-3))
-    guess = "one of them is in mm, or the time in milliseconds";
-  if (factor < 0.0)
-    guess = is_near(factor, 1.0) ? "one of them has the opposite sign" : guess + " and the opposite sign";
-  return fmt::format("dq{0} is {1:.4g} times the derivative of q{0}: {2}; dq{0} was left out", joint, factor,
-                     guess);
-}
-
-/// Updates the maximum; minima are kept as maxima of the negated value.
-void TorqueLimits::Extreme::see(double v) {
-  const double margin = kSame * std::max(std::abs(v), std::abs(value));
-  if (rows > 0 && v < value - margin) return;
-  if (rows == 0 || v > value + margin) {
-    value = v;
-    rows = 0;
-  }
-  ++rows;
-}
-
-void TorqueLimits::add(const RawStretch& s) {
-  high_.resize(s.joints());
-  low_.resize(s.joints());
-  rows_ += s.rows();
-  for (int j = 0; j < s.joints(); ++j)
-    for (int k = 0; k < s.rows(); ++k) {
-      high_[j].see(s.tau(j, k));
-      low_[j].see(-s.tau(j, k));
-    }
-}
-
-Issues TorqueLimits::issues() const {
-  Issues out;
-  for (std::size_t j = 0; j < high_.size(); ++j) {
-    const int joint = static_cast<int>(j);
-    if (high_[j].value == -low_[j].value) {
-      out.add(make_issue("constant_torque", Severity::warning,
-                         fmt::format("tau{} never changes: check that it is the right column", joint + 1),
-                         channel(joint)));
-      continue;
-    }
-    for (const auto& [extreme, sign] : {std::pair{high_[j], 1.0}, std::pair{low_[j], -1.0}})
-      if (static_cast<double>(extreme.rows) > kLimitShare * static_cast<double>(rows_) &&
-          extreme.value != 0.0)
-        out.add(
-            make_issue("torque_limit", Severity::warning,
-                       fmt::format("tau{} is at its limit of {:g} in {:.0f} % of the rows: a torque clipped "
-                                   "by the drive or by the log is not the torque that moved the robot",
-                                   joint + 1, sign * extreme.value,
-                                   100.0 * static_cast<double>(extreme.rows) / static_cast<double>(rows_)),
-                       channel(joint)));
-  }
-  return out;
+std::string other_unit_text(const VelocityAgreement& agreement, int joint) {
+  return fmt::format("dq{0} is {1:.4g} times the derivative of q{0}: {2}; dq{0} was left out", joint,
+                     1.0 / agreement.factor, velocity_guess(agreement.factor, false, false));
 }
 
 LogSurvey survey_log(LogSource& source, int joints) {
   LogSurvey survey;
   std::vector<Busiest> busiest(joints);
   RepeatCounter repeats;
+  for (int j = 1; j <= joints; ++j) survey.torque.push_back({.name = to_string({Quantity::tau, j})});
   survey.summary = for_each_raw_stretch(source, joints, RepeatedRows::none, [&](const RawStretch& s) {
     repeats.add(s);
     keep_busiest(s, busiest);
-    survey.torque_limits.add(s);
+    for (int j = 0; j < joints; ++j)
+      for (const double tau : s.tau.row(j)) survey.torque[j].add(tau);
   });
   survey.repeated_rows = repeats.kind();
   survey.repeated_share = repeats.share();
@@ -223,7 +170,8 @@ LogSurvey survey_log(LogSource& source, int joints) {
 }
 
 Issues survey_issues(const LogSurvey& survey) {
-  Issues issues = survey.torque_limits.issues();
+  Issues issues;
+  for (const ChannelSummary& torque : survey.torque) judge_torque(torque, issues);
   const auto note = [&](std::string code, Severity severity, std::string message) {
     issues.add(make_issue(std::move(code), severity, std::move(message)));
   };
@@ -235,9 +183,9 @@ Issues survey_issues(const LogSurvey& survey) {
                  ? "their values are outdated and were left out"
                  : "the motion did not continue during them, so these rows and their time were removed"));
   for (std::size_t j = 0; j < survey.velocity.size(); ++j)
-    if (survey.velocity[j].disagrees())
+    if (survey.velocity[j].is_other_unit())
       note(fmt::format("velocity_disagrees_{}", j + 1), Severity::severe,
-           disagreement_text(survey.velocity[j], static_cast<int>(j) + 1));
+           other_unit_text(survey.velocity[j], static_cast<int>(j) + 1));
   std::vector<int> derived;
   for (std::size_t j = 0; j < survey.dq_is_derived.size(); ++j)
     if (survey.dq_is_derived[j]) derived.push_back(static_cast<int>(j) + 1);

@@ -90,9 +90,10 @@ TEST(LogSurvey, VelocityInAnotherUnitIsNamedAndLeftOut) {
   EXPECT_FALSE(s.measures_velocity(2));
   const Issues issues = survey_issues(s);
   ASSERT_NE(issues.find("velocity_disagrees_1"), nullptr);
-  EXPECT_NE(issues.find("velocity_disagrees_1")->message.find("one of them is in degrees"),
+  EXPECT_NE(issues.find("velocity_disagrees_1")->message.find("the velocity seems to be in deg/s"),
             std::string::npos);
-  EXPECT_NE(issues.find("velocity_disagrees_3")->message.find("the opposite sign"), std::string::npos);
+  EXPECT_NE(issues.find("velocity_disagrees_3")->message.find("the sign of one of them is wrong"),
+            std::string::npos);
 }
 
 TEST(RawStretch, LostRowsAreBridgedWithoutAMeasurementAndLongGapsCut) {
