@@ -19,7 +19,6 @@
 #include "lib/diagnose/monitor/model_rate.hpp"
 #include "lib/diagnose/monitor/monitor.hpp"
 #include "lib/diagnose/question/check_interpretation.hpp"
-#include "lib/diagnose/question/find_column_change.hpp"
 #include "lib/diagnose/relation_findings.hpp"
 #include "lib/diagnose/verdict.hpp"
 #include "lib/log/recorder/corrected_source.hpp"

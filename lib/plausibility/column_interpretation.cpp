@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -11,18 +13,30 @@ namespace faultline {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0, kMilli = 1e-3;  // rad in a degree; m in mm, s in ms
+constexpr double kOtherClock = 1.3;  // ratio of two sample periods from which on their clocks differ
+
+using Interpretations = std::vector<ColumnInterpretation>;
 
 void scale(std::vector<double>& values, double by) {
   for (double& v : values) v *= by;
 }
+
+void scale_position(Log& log, int j, double by) { scale(log.q[j], by); }
 
 void scale_velocity(Log& log, int j, double by) {
   if (!log.dq.empty()) scale(log.dq[j], by);
 }
 
 void scale_motion(Log& log, int j, double by) {
-  scale(log.q[j], by);
+  scale_position(log, j, by);
   scale_velocity(log, j, by);
+}
+
+void scale_torque(Log& log, int j, double by) { scale(log.tau[j], by); }
+
+void scale_joint(Log& log, int j, double by) {
+  scale_motion(log, j, by);
+  scale_torque(log, j, by);
 }
 
 void swap_motion(Log& log, int j, int k) {
@@ -30,55 +44,63 @@ void swap_motion(Log& log, int j, int k) {
   if (!log.dq.empty()) std::swap(log.dq[j], log.dq[k]);
 }
 
-void add_units(const Chain& chain, std::vector<ColumnInterpretation>& out) {
-  const int n = chain.joints();
-  const auto is_revolute = [&chain](int j) { return chain.geometry[j].kind == AxisKind::revolute; };
-  out.push_back({"the angles are in degrees",
-                 "unit = \"deg\" for q and \"deg/s\" for dq of the revolute joints",
-                 [n, is_revolute](Log& log) {
-                   for (int j = 0; j < n; ++j)
-                     if (is_revolute(j)) scale_motion(log, j, kDegree);
-                 }});
+/// Returns an interpretation that is applied by `change` with the factor `by` to each of the joints.
+ColumnInterpretation scaled(std::string what, const std::string& entry, const std::vector<int>& joints,
+                            void (*change)(Log&, int, double), double by) {
+  return {std::move(what), entry, [joints, change, by](Log& log) {
+            for (const int j : joints) change(log, j, by);
+          }};
+}
+
+std::vector<int> joints_of_kind(const Chain& chain, AxisKind kind) {
+  std::vector<int> joints;
+  for (int j = 0; j < chain.joints(); ++j)
+    if (chain.geometry[j].kind == kind) joints.push_back(j);
+  return joints;
+}
+
+void add_units(const Chain& chain, Interpretations& out) {
+  out.push_back(scaled("the angles are in degrees",
+                       "unit = \"deg\" for q and \"deg/s\" for dq of the revolute joints",
+                       joints_of_kind(chain, AxisKind::revolute), scale_motion, kDegree));
   out.push_back(
       {"the time is in milliseconds", "unit = \"ms\" for t", [](Log& log) { scale(log.time, kMilli); }});
-  for (int j = 0; j < n; ++j) {
-    const double by = is_revolute(j) ? kDegree : kMilli;
-    const char* const unit = is_revolute(j) ? "deg" : "mm";
-    out.push_back({fmt::format("q{0} and dq{0} are in {1} and {1}/s", j + 1, unit),
-                   fmt::format("unit = \"{1}\" for q{0} and \"{1}/s\" for dq{0}", j + 1, unit),
-                   [j, by](Log& log) { scale_motion(log, j, by); }});
-    out.push_back({fmt::format("q{} is in {}", j + 1, unit),
-                   fmt::format("unit = \"{}\" for q{}", unit, j + 1),
-                   [j, by](Log& log) { scale(log.q[j], by); }});
-    out.push_back({fmt::format("dq{} is in {}/s", j + 1, unit),
-                   fmt::format("unit = \"{}/s\" for dq{}", unit, j + 1),
-                   [j, by](Log& log) { scale_velocity(log, j, by); }});
+  for (int j = 0; j < chain.joints(); ++j) {
+    const bool turns = chain.geometry[j].kind == AxisKind::revolute;
+    const double by = turns ? kDegree : kMilli;
+    const char* const unit = turns ? "deg" : "mm";
+    out.push_back(scaled(fmt::format("q{0} and dq{0} are in {1} and {1}/s", j + 1, unit),
+                         fmt::format("unit = \"{1}\" for q{0} and \"{1}/s\" for dq{0}", j + 1, unit), {j},
+                         scale_motion, by));
+    out.push_back(scaled(fmt::format("q{} is in {}", j + 1, unit),
+                         fmt::format("unit = \"{}\" for q{}", unit, j + 1), {j}, scale_position, by));
+    out.push_back(scaled(fmt::format("dq{} is in {}/s", j + 1, unit),
+                         fmt::format("unit = \"{}/s\" for dq{}", unit, j + 1), {j}, scale_velocity, by));
   }
 }
 
 /// Adds one torque in thousandths or thousands of its unit; for all of them only the masses would differ.
-void add_torque_units(const Chain& chain, std::vector<ColumnInterpretation>& out) {
+void add_torque_units(const Chain& chain, Interpretations& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (const double by : {1e-3, 1e3})
-      out.push_back(
-          {fmt::format("tau{} is {} than the other torques", j + 1,
-                       by < 1.0 ? "in a unit a thousand times smaller" : "in a unit a thousand times larger"),
-           fmt::format("scale = {:g} for tau{}", by, j + 1), [j, by](Log& log) { scale(log.tau[j], by); }});
+      out.push_back(scaled(
+          fmt::format("tau{} is {} than the other torques", j + 1,
+                      by < 1.0 ? "in a unit a thousand times smaller" : "in a unit a thousand times larger"),
+          fmt::format("scale = {:g} for tau{}", by, j + 1), {j}, scale_torque, by));
 }
 
-void add_signs(const Chain& chain, std::vector<ColumnInterpretation>& out) {
+void add_signs(const Chain& chain, Interpretations& out) {
   for (int j = 0; j < chain.joints(); ++j) {
-    out.push_back({fmt::format("tau{} has the opposite sign", j + 1),
-                   fmt::format("sign = -1 for tau{}", j + 1), [j](Log& log) { scale(log.tau[j], -1.0); }});
-    out.push_back({fmt::format("q{0} and dq{0} have the opposite sign", j + 1),
-                   fmt::format("sign = -1 for q{0} and dq{0}", j + 1),
-                   [j](Log& log) { scale_motion(log, j, -1.0); }});
-    out.push_back({fmt::format("dq{} has the opposite sign", j + 1), fmt::format("sign = -1 for dq{}", j + 1),
-                   [j](Log& log) { scale_velocity(log, j, -1.0); }});
+    out.push_back(scaled(fmt::format("tau{} has the opposite sign", j + 1),
+                         fmt::format("sign = -1 for tau{}", j + 1), {j}, scale_torque, -1.0));
+    out.push_back(scaled(fmt::format("q{0} and dq{0} have the opposite sign", j + 1),
+                         fmt::format("sign = -1 for q{0} and dq{0}", j + 1), {j}, scale_motion, -1.0));
+    out.push_back(scaled(fmt::format("dq{} has the opposite sign", j + 1),
+                         fmt::format("sign = -1 for dq{}", j + 1), {j}, scale_velocity, -1.0));
   }
 }
 
-void add_swaps(const Chain& chain, std::vector<ColumnInterpretation>& out) {
+void add_swaps(const Chain& chain, Interpretations& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (int k = j + 1; k < chain.joints(); ++k) {
       out.push_back({fmt::format("tau{} and tau{} are swapped", j + 1, k + 1),
@@ -90,29 +112,16 @@ void add_swaps(const Chain& chain, std::vector<ColumnInterpretation>& out) {
     }
 }
 
-/// Whether the chain has an axis of that kind.
-bool has_axis(const Chain& chain, AxisKind kind) {
-  return std::any_of(chain.geometry.begin(), chain.geometry.end(),
-                     [kind](const JointGeometry& joint) { return joint.kind == kind; });
-}
-
-void add_common_units(const Chain& chain, std::vector<ColumnInterpretation>& out) {
-  const auto on_axes = [&chain](AxisKind kind, double by, bool positions) {
-    std::vector<int> joints;
-    for (int j = 0; j < chain.joints(); ++j)
-      if (chain.geometry[j].kind == kind) joints.push_back(j);
-    return [joints, by, positions](Log& log) {
-      for (const int j : joints) positions ? scale_motion(log, j, by) : scale_velocity(log, j, by);
-    };
-  };
-  if (has_axis(chain, AxisKind::prismatic))
-    out.push_back({"the sliding axes are in mm",
-                   "unit = \"mm\" for q and \"mm/s\" for dq of the sliding axes",
-                   on_axes(AxisKind::prismatic, kMilli, true)});
-  if (has_axis(chain, AxisKind::revolute))
-    out.push_back({"the velocities of the turning axes are in deg/s",
-                   "unit = \"deg/s\" for dq of the revolute joints",
-                   on_axes(AxisKind::revolute, kDegree, false)});
+void add_common_units(const Chain& chain, Interpretations& out) {
+  const std::vector<int> turning = joints_of_kind(chain, AxisKind::revolute),
+                         sliding = joints_of_kind(chain, AxisKind::prismatic);
+  if (!sliding.empty())
+    out.push_back(scaled("the sliding axes are in mm",
+                         "unit = \"mm\" for q and \"mm/s\" for dq of the sliding axes", sliding, scale_motion,
+                         kMilli));
+  if (!turning.empty())
+    out.push_back(scaled("the velocities of the turning axes are in deg/s",
+                         "unit = \"deg/s\" for dq of the revolute joints", turning, scale_velocity, kDegree));
   for (const double by : {kMilli, 1.0 / kMilli})
     out.push_back({by < 1.0 ? "all torques are 1000 times too large (mN m)"
                             : "all torques are 1000 times too small (kN m)",
@@ -121,17 +130,7 @@ void add_common_units(const Chain& chain, std::vector<ColumnInterpretation>& out
                    }});
 }
 
-/// Adds joints with the opposite direction of counting, which differs from a wrong sign of one column.
-void add_reversed_joints(const Chain& chain, std::vector<ColumnInterpretation>& out) {
-  for (int j = 0; j < chain.joints(); ++j)
-    out.push_back({fmt::format("joint {0} counts in the opposite direction (q{0}, dq{0} and tau{0})", j + 1),
-                   fmt::format("sign = -1 for q{0}, dq{0} and tau{0}", j + 1), [j](Log& log) {
-                     scale_motion(log, j, -1.0);
-                     scale(log.tau[j], -1.0);
-                   }});
-}
-
-void add_swapped_joints(const Chain& chain, std::vector<ColumnInterpretation>& out) {
+void add_swapped_joints(const Chain& chain, Interpretations& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (int k = j + 1; k < chain.joints(); ++k)
       out.push_back(
@@ -145,31 +144,55 @@ void add_swapped_joints(const Chain& chain, std::vector<ColumnInterpretation>& o
            }});
 }
 
-std::vector<ColumnInterpretation> with_cures_into_columns(std::vector<ColumnInterpretation> readings) {
-  for (ColumnInterpretation& reading : readings) {
-    reading.cure = fmt::format("write {} into [log.columns]", reading.cure);
-    reading.is_entry_of_columns = true;
+/// Adds joints with the opposite direction of counting, which differs from a wrong sign of one column.
+void add_reversed_joints(const Chain& chain, Interpretations& out) {
+  for (int j = 0; j < chain.joints(); ++j)
+    out.push_back(
+        scaled(fmt::format("joint {0} counts in the opposite direction (q{0}, dq{0} and tau{0})", j + 1),
+               fmt::format("sign = -1 for q{0}, dq{0} and tau{0}", j + 1), {j}, scale_joint, -1.0));
+}
+
+/// Returns the interpretations, whose cures are entries of [log.columns] so far, with whole instructions.
+Interpretations with_cures_into_columns(Interpretations all) {
+  for (ColumnInterpretation& one : all) {
+    one.cure = fmt::format("write {} into [log.columns]", one.cure);
+    one.is_entry_of_columns = true;
   }
-  return readings;
+  return all;
+}
+
+double period_of(const Log& rows) { return (rows.time.back() - rows.time.front()) / (rows.rows() - 1); }
+
+/// Returns how far a joint moves in the log in which it moves farthest.
+double range_of(const std::vector<Log>& logs, std::size_t joint) {
+  double widest = 0.0;
+  for (const Log& log : logs) {
+    double low = INFINITY, high = -INFINITY;
+    for (const double q : log.q[joint]) low = std::fmin(low, q), high = std::fmax(high, q);
+    widest = std::max(widest, high - low);
+  }
+  return widest;
 }
 
 }  // namespace
 
 std::vector<ColumnInterpretation> column_interpretations(const Chain& chain) {
-  std::vector<ColumnInterpretation> readings;
-  add_units(chain, readings);
-  add_torque_units(chain, readings);
-  add_signs(chain, readings);
-  add_swaps(chain, readings);
-  return with_cures_into_columns(std::move(readings));
+  Interpretations all;
+  add_units(chain, all);
+  add_torque_units(chain, all);
+  add_signs(chain, all);
+  add_swaps(chain, all);
+  return with_cures_into_columns(std::move(all));
 }
 
-std::vector<ColumnInterpretation> common_interpretations(const Chain& chain) {
-  std::vector<ColumnInterpretation> readings;
-  add_common_units(chain, readings);
-  add_swapped_joints(chain, readings);
-  add_reversed_joints(chain, readings);
-  return with_cures_into_columns(std::move(readings));
+std::vector<ColumnInterpretation> interpretations_by_known_robot(const Chain& chain) {
+  Interpretations all;
+  add_common_units(chain, all);
+  add_swapped_joints(chain, all);
+  add_reversed_joints(chain, all);
+  all = with_cures_into_columns(std::move(all));
+  std::ranges::move(column_interpretations(chain), std::back_inserter(all));
+  return all;
 }
 
 std::vector<ColumnInterpretation> gravity_interpretations(const Chain& chain) {
@@ -177,15 +200,72 @@ std::vector<ColumnInterpretation> gravity_interpretations(const Chain& chain) {
   std::vector<Eigen::Vector3d> tried{Eigen::Vector3d::Zero()};
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0}) tried.push_back(sign * kG * Eigen::Vector3d::Unit(axis));
-  std::vector<ColumnInterpretation> readings;
+  Interpretations all;
   for (const Eigen::Vector3d& gravity : tried) {
     if ((gravity - chain.gravity).norm() < kApart) continue;
     const std::string text = fmt::format("[{:g}, {:g}, {:g}]", gravity[0], gravity[1], gravity[2]);
-    readings.push_back({fmt::format("gravity is {}", text),
-                        fmt::format("write gravity = {} into the robot file", text), [](Log&) {},
-                        [gravity](Chain& other) { other.gravity = gravity; }});
+    all.push_back({fmt::format("gravity is {}", text),
+                   fmt::format("write gravity = {} into the robot file", text), [](Log&) {},
+                   [gravity](Chain& other) { other.gravity = gravity; }});
   }
-  return readings;
+  return all;
+}
+
+std::vector<ColumnInterpretation> clock_interpretations(const Log& rows, double period_s) {
+  const double ratio = rows.rows() < 2 ? 1.0 : period_of(rows) / period_s;
+  if (ratio <= kOtherClock && ratio >= 1.0 / kOtherClock) return {};
+  constexpr double kNear = 0.05;  // relative error of a ratio that counts as ms
+  const auto apply = [ratio](Log& log) {
+    for (double& t : log.time) t /= ratio;
+  };
+  if (std::abs(ratio * kMilli - 1.0) < kNear)
+    return with_cures_into_columns({{"the time is in milliseconds", "unit = \"ms\" for t", apply}});
+  return {{fmt::format("its time runs {:.4g} times too {}: the motion fits a row every {:.4g} s",
+                       std::max(ratio, 1.0 / ratio), ratio > 1.0 ? "fast" : "slow", period_s),
+           fmt::format("write scale = {:.6g} for t into [log.columns], or correct the clock of the log",
+                       1.0 / ratio),
+           apply}};
+}
+
+std::vector<ColumnInterpretation> delay_interpretations(const Log& rows) {
+  // Rows: the first delay tried; the next is a third longer each time, up to a quarter of the log.
+  constexpr int kFirstStep = 2, kFiner = 3, kShortest = 4;
+  const double period = period_of(rows);
+  Interpretations all;
+  for (int step = kFirstStep; kShortest * step < rows.rows(); step += std::max(1, step / kFiner))
+    for (const int shift : {step, -step})
+      all.push_back({fmt::format("the torques are logged about {:.2g} s too {}", std::abs(shift) * period,
+                                 shift > 0 ? "late" : "early"),
+                     "record torque and motion with one clock, or shift the torque before the diagnosis",
+                     [shift](Log& log) {
+                       for (std::vector<double>& tau : log.tau) {
+                         const std::vector<double> logged = tau;
+                         const int last = static_cast<int>(tau.size()) - 1;
+                         for (int k = 0; k <= last; ++k) tau[k] = logged[std::clamp(k + shift, 0, last)];
+                       }
+                     }});
+  return all;
+}
+
+const ColumnInterpretation* best_interpretation(std::span<const ColumnInterpretation> interpretations,
+                                                const std::vector<Log>& logs,
+                                                const std::vector<double>& least_motion, double limit,
+                                                const InterpretationScore& score) {
+  const ColumnInterpretation* best = nullptr;
+  for (const ColumnInterpretation& one : interpretations) {
+    std::vector<Log> changed = logs;
+    for (Log& log : changed) one.apply(log);
+    bool hides_motion = false;
+    for (std::size_t j = 0; j < least_motion.size(); ++j)
+      hides_motion =
+          hides_motion || (range_of(changed, j) < least_motion[j] && range_of(logs, j) >= least_motion[j]);
+    if (hides_motion) continue;
+    const std::optional<double> now = score(one, changed);
+    if (!now || *now >= limit) continue;
+    best = &one;
+    limit = *now;
+  }
+  return best;
 }
 
 }  // namespace faultline

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/identify/motion/stretch.hpp"
 #include "lib/log/memory_source.hpp"
@@ -26,7 +27,21 @@ constexpr double kLeastShare = 0.1;        // of the same: least variation in a 
 constexpr double kLeastHeld = 0.3;         // of the same: least mean torque of a block that varies less
 // Times the friction of the model: bounds of the friction that is fitted to a block of windows.
 constexpr double kBalanceLeastFriction = 0.5, kMostFriction = 2.0;
+constexpr double kFitsWell = 0.06;     // misfit below which one moment is enough
+constexpr double kLeastMisfit = 0.01;  // below it, all interpretations are right
+constexpr double kOtherVelocity =
+    1.0;                             // misfit of a velocity in another unit than its position: fits nothing
 constexpr double kMostOffset = 0.3;  // of the largest healthy torque: bound of the offset fitted to a block
+
+/// The torque of one joint as means over windows of a tenth of a second or more in which the joint moves, in
+/// the order of time.
+struct JointBalance {
+  std::vector<double> logged;   ///< N m or N
+  std::vector<double> body;     ///< required for inertia and gravity along the logged motion, N m or N
+  std::vector<double> braking;  ///< required for friction and ripple, N m or N
+
+  std::size_t windows() const { return logged.size(); }
+};
 
 /// Torque that the robot needs in each row of a stretch, N m or N.
 struct Rows {
@@ -63,7 +78,6 @@ void add_windows(const Stretch& s, const KnownRobot& robot, const Eigen::VectorX
     for (int j = 0; j < s.joints(); ++j) {
       const double speed = s.dq_smooth.row(j).segment(first, steps).cwiseAbs().mean();
       if (!(speed > kMoves * fastest[j])) continue;
-      out[j].time_s.push_back(s.time[first]);
       out[j].logged.push_back(mean_of_steps(s.tau.row(j), first, steps, robot.torque_phi()));
       out[j].body.push_back(mean_of_steps(needed.body.row(j), first, steps, kTrapezoid));
       out[j].braking.push_back(mean_of_steps(needed.braking.row(j), first, steps, kTrapezoid));
@@ -77,8 +91,8 @@ Eigen::Map<const Eigen::ArrayXd> part(const std::vector<double>& values, std::si
 
 double variation(const Eigen::ArrayXd& values) { return std::sqrt((values - values.mean()).square().mean()); }
 
-/// Misfit of a block of windows with the offset and friction that fit it best (misfits()); NaN if its torque
-/// is too small.
+/// Misfit of a block of windows with the offset and friction that fit it best (JointMatch::misfits); NaN if
+/// its torque is too small.
 double misfit(const JointBalance& b, std::size_t first, std::size_t count, double torque_scale) {
   const Eigen::ArrayXd logged = part(b.logged, first, count), body = part(b.body, first, count),
                        braking = part(b.braking, first, count);
@@ -96,32 +110,6 @@ double misfit(const JointBalance& b, std::size_t first, std::size_t count, doubl
                                           : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace
-
-std::vector<JointBalance> torque_balance(const Log& log, const KnownRobot& robot) {
-  const Chain& chain = robot.chain();
-  std::vector<JointBalance> out(chain.joints());
-  MemorySource source(log, "excerpt");
-  try {
-    const LogSurvey survey = survey_log(source, chain.joints());
-    for (int j = 0; j < chain.joints(); ++j)
-      if (survey.velocity[j].is_other_unit()) out[j].velocity_factor = 1.0 / survey.velocity[j].factor;
-    std::vector<Stretch> stretches;
-    source.rewind();
-    for_each_stretch(source, 0, chain.joints(), survey, 1,
-                     [&](const Stretch& stretch) { stretches.push_back(stretch); });
-    Eigen::VectorXd fastest = Eigen::VectorXd::Zero(chain.joints());  // bounded by the healthy logs
-    for (const Stretch& s : stretches)
-      fastest = fastest.cwiseMax(s.dq_smooth.cwiseAbs().rowwise().maxCoeff());
-    for (int j = 0; j < chain.joints(); ++j)
-      fastest[j] = std::min(fastest[j], kFastest * robot.usual.velocity_scale[j]);
-    for (const Stretch& s : stretches) add_windows(s, robot, fastest, out);
-  } catch (const Error&) {
-    return std::vector<JointBalance>(chain.joints());  // no motion that can be compared with a robot
-  }
-  return out;
-}
-
 std::vector<double> misfits(const JointBalance& balance, double torque_scale) {
   std::vector<double> out;
   for (std::size_t first = 0; first + kFewestOfBlock <= balance.windows(); first += kBlock) {
@@ -131,17 +119,94 @@ std::vector<double> misfits(const JointBalance& balance, double torque_scale) {
   return out;
 }
 
-TorqueRatio torque_ratio(const JointBalance& b, double torque_scale) {
+/// Sets the ratio of the torques, and its residual.
+void fit_ratio(const JointBalance& b, double torque_scale, JointMatch& fit) {
   const std::size_t count = b.windows();
-  if (count < kFewestOfBlock) return {};
+  if (count < kFewestOfBlock) return;
   const Eigen::ArrayXd logged = part(b.logged, 0, count),
                        needed = part(b.body, 0, count) + part(b.braking, 0, count);
   const Eigen::ArrayXd varying = needed - needed.mean();
   const double spread = varying.square().mean();
-  if (!(std::sqrt(spread) > kLeastRatioShare * torque_scale)) return {};
-  const double ratio = ((logged - logged.mean()) * varying).mean() / spread;
-  const Eigen::ArrayXd left = logged - logged.mean() - ratio * varying;
-  return {ratio, std::sqrt(left.square().mean() / std::max(variation(logged) * variation(logged), 1e-300))};
+  if (!(std::sqrt(spread) > kLeastRatioShare * torque_scale)) return;
+  fit.torque_ratio = ((logged - logged.mean()) * varying).mean() / spread;
+  const Eigen::ArrayXd left = logged - logged.mean() - fit.torque_ratio * varying;
+  fit.ratio_residual =
+      std::sqrt(left.square().mean() / std::max(variation(logged) * variation(logged), 1e-300));
+}
+
+/// The misfit that `count` blocks do not exceed; with fewer blocks, the largest. 0 without any.
+double best_blocks(std::vector<double> of_joint, std::size_t count) {
+  if (of_joint.empty()) return 0.0;
+  const std::size_t last = std::min(count, of_joint.size()) - 1;
+  std::nth_element(of_joint.begin(), of_joint.begin() + static_cast<std::ptrdiff_t>(last), of_joint.end());
+  return of_joint[last];
+}
+
+/// The misfit that a third of the blocks, at least two, do not exceed: a fault may begin soon.
+double usual_misfit(const std::vector<double>& of_joint) {
+  return best_blocks(of_joint, std::max((of_joint.size() + 2) / 3, std::size_t{2}));
+}
+
+/// Returns the torques of the windows of a log, by joint.
+std::vector<JointBalance> torque_balance(LogSource& log, const LogSurvey& survey, const KnownRobot& robot) {
+  const int joints = robot.joints();
+  std::vector<Stretch> stretches;
+  log.rewind();
+  for_each_stretch(log, 0, joints, survey, 1, [&](const Stretch& stretch) { stretches.push_back(stretch); });
+  Eigen::VectorXd fastest = Eigen::VectorXd::Zero(joints);  // bounded by the healthy logs
+  for (const Stretch& s : stretches) fastest = fastest.cwiseMax(s.dq_smooth.cwiseAbs().rowwise().maxCoeff());
+  for (int j = 0; j < joints; ++j)
+    fastest[j] = std::min(fastest[j], kFastest * robot.usual.velocity_scale[j]);
+  std::vector<JointBalance> out(joints);
+  for (const Stretch& s : stretches) add_windows(s, robot, fastest, out);
+  return out;
+}
+
+}  // namespace
+
+std::vector<JointMatch> fit_to_robot(const Log& log, const KnownRobot& robot) {
+  std::vector<JointMatch> out(robot.joints());
+  MemorySource source(log, "excerpt");
+  try {
+    const LogSurvey survey = survey_log(source, robot.joints());
+    const std::vector<JointBalance> balance = torque_balance(source, survey, robot);
+    for (int j = 0; j < robot.joints(); ++j) {
+      const double scale = robot.usual.torque_scale[j];
+      if (scale > 0.0) out[j].misfits = misfits(balance[j], scale);
+      if (survey.velocity[j].is_other_unit()) out[j].velocity_factor = 1.0 / survey.velocity[j].factor;
+      fit_ratio(balance[j], scale, out[j]);
+    }
+  } catch (const Error&) {
+    return std::vector<JointMatch>(robot.joints());  // no motion that can be compared with a robot
+  }
+  return out;
+}
+
+double best_misfit(const std::vector<double>& of_joint) {
+  const double best = best_blocks(of_joint, 1);
+  if (best < kFitsWell || of_joint.size() < 2) return best;
+  double pair = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < of_joint.size(); ++i)
+    pair = std::min(pair, std::max(of_joint[i - 1], of_joint[i]));
+  return pair;
+}
+
+FitScore score_of(const std::vector<JointMatch>& fit) {
+  FitScore out;
+  int determined = 0;
+  for (const JointMatch& joint : fit) {
+    if (!joint.is_determined()) continue;
+    const double apart = joint.velocity_factor == 1.0 ? 0.0 : kOtherVelocity;
+    const double best = std::max(best_misfit(joint.misfits), apart);
+    const double usual = std::max(usual_misfit(joint.misfits), apart);
+    out.worst = std::max(out.worst, best);
+    out.usual = std::max(out.usual, usual);
+    out.log_mean += 0.5 * (elementary::log(std::max(best, kLeastMisfit)) +
+                           elementary::log(std::max(usual, kLeastMisfit)));
+    ++determined;
+  }
+  if (determined > 0) out.log_mean /= determined;
+  return out;
 }
 
 }  // namespace faultline

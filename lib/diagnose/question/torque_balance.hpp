@@ -9,6 +9,10 @@
 
 namespace faultline {
 
+inline constexpr int kExcerptRows = 4000;  ///< rows of a stretch that is tested at once
+/// Misfit of a joint's torque up to which it is as the robot requires.
+inline constexpr double kTorqueFits = 0.35;
+
 /// The identified robot that a log is compared with, and its usual motion.
 struct KnownRobot {
   const Robot& robot;
@@ -19,36 +23,38 @@ struct KnownRobot {
   double torque_phi() const { return robot.torque_phi.value_or(0.0); }
 };
 
-/// The torque of one joint as means over windows of a tenth of a second or more in which the joint moves, in
-/// the order of time.
-struct JointBalance {
-  std::vector<double> time_s;   ///< start of each window
-  std::vector<double> logged;   ///< N m or N
-  std::vector<double> body;     ///< required for inertia and gravity along the logged motion, N m or N
-  std::vector<double> braking;  ///< required for friction and ripple, N m or N
-  /// Measured velocity over the derivative of the position if they are one quantity in two units; else 1.
+/// How the torque of one joint in a stretch of a log fits the known robot.
+struct JointMatch {
+  /// For each block of successive windows in which the joint moves, in the order of time: root mean square of
+  /// logged minus required torque over the standard deviation of the torque. An offset and half to twice the
+  /// friction are fitted first. In a block whose torque varies by less than a tenth of the largest healthy
+  /// torque, relative to the mean torque and without an offset; a block in which that is small too is left
+  /// out.
+  std::vector<double> misfits;
+  /// Measured velocity over the derivative of the position if they are one motion in two units; else 1.
   double velocity_factor = 1.0;
+  /// Factor from required to logged torque, fitted to all windows with an offset; 0 if the torque varies too
+  /// little.
+  double torque_ratio = 0.0;
+  double ratio_residual = 1.0;  ///< share of the logged torque's standard deviation that this factor leaves
 
-  std::size_t windows() const { return logged.size(); }
+  bool is_determined() const { return !misfits.empty(); }
 };
 
-/// Computes the torque that the robot needs for the motion of a log, beside the logged torque, by joint.
-/// Without windows if the motion cannot be computed (too few rows, no torque).
-std::vector<JointBalance> torque_balance(const Log& log, const KnownRobot& robot);
+/// Compares the torque of a log with the one that the robot needs for its motion, by joint. No joint is
+/// determined if the motion cannot be computed (too few rows, no torque).
+std::vector<JointMatch> fit_to_robot(const Log& log, const KnownRobot& robot);
 
-/// Returns the misfit of each block of successive windows: root mean square of logged minus required torque
-/// over the standard deviation of the torque. An offset and half to twice the friction are fitted first. In a
-/// block whose torque varies by less than a tenth of `torque_scale` (largest healthy torque), the misfit is
-/// relative to the mean torque and without an offset; a block in which that is small too is left out.
-std::vector<double> misfits(const JointBalance& balance, double torque_scale);
+/// Returns the misfit in the best moment of a joint: of a block that fits well, else of two successive
+/// blocks, since one may fit by chance. 0 without blocks.
+double best_misfit(const std::vector<double>& misfits);
 
-/// The factor from required to logged torque, and the share of the logged torque's standard deviation that
-/// remains as residual.
-struct TorqueRatio {
-  double ratio = 0.0;  ///< 0 if the torque varies too little
-  double left = 1.0;
+/// How well an interpretation fits, over the joints that are determined: the largest misfit in the best
+/// moment of a joint; the largest misfit that a third of a joint's blocks, at least two, do not exceed, as a
+/// fault may begin soon; and the mean logarithm of both.
+struct FitScore {
+  double worst = 0.0, usual = 0.0, log_mean = 0.0;
 };
-/// Fits the ratio over all windows, with an offset.
-TorqueRatio torque_ratio(const JointBalance& balance, double torque_scale);
+FitScore score_of(const std::vector<JointMatch>& fit);
 
 }  // namespace faultline

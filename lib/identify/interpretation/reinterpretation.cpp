@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,25 +28,7 @@ constexpr int kMisreadingWindows = 2000;      // at most: every interpretation c
 constexpr double kRight = 0.8;                // least R2 of each joint under a right interpretation
 constexpr double kSurelyRight = 0.95;         // the same if the present interpretation is infeasible
 constexpr double kClearlyLess = 0.5;          // of the present residual, in the mean over joints
-
-/// Whether an interpretation shrinks the motion of a joint below a plausible one.
-bool shrinks_motion(const std::vector<Log>& before, const std::vector<Log>& after, const Robot& robot) {
-  constexpr double kLeastMove_rad = 0.03, kLeastMove_m = 0.003;  // range of a joint: less is no motion
-  const auto range = [](const std::vector<Log>& logs, int j) {
-    double widest = 0.0;
-    for (const Log& log : logs) {
-      const auto [low, high] = std::minmax_element(log.q[j].begin(), log.q[j].end());
-      if (low != log.q[j].end()) widest = std::max(widest, *high - *low);
-    }
-    return widest;
-  };
-  for (int j = 0; j < robot.joints(); ++j) {
-    const double least = robot.chain.geometry[j].kind == AxisKind::revolute ? kLeastMove_rad : kLeastMove_m;
-    const double now = range(after, j);
-    if (now < least && now < 0.5 * range(before, j)) return true;
-  }
-  return false;
-}
+constexpr double kLeastMotion_rad = 0.03, kLeastMotion_m = 0.003;  // range of a joint: less is no motion
 
 /// How well the robot explains the logs under an interpretation.
 struct Explained {
@@ -101,27 +84,30 @@ Reinterpretation find_reinterpretation(std::span<LogSource* const> logs, const R
       append(taken, slice(segment, 0, std::min(segment.rows(), kRows - taken.rows())));
     beginnings.push_back(std::move(taken));
   }
-  std::vector<ColumnInterpretation> readings = column_interpretations(robot.chain);
-  for (ColumnInterpretation& reading : gravity_interpretations(robot.chain))
-    readings.push_back(std::move(reading));
-  const Explained now = explain(beginnings, robot);
-  Reinterpretation best;
-  best.r2_before = now.worst();
-  double least = now.left() + elementary::log(kClearlyLess);
-  for (const ColumnInterpretation& reading : readings) {
-    if (reading.of_robot && !best.what.empty()) break;  // columns first: errors in them are more frequent
-    std::vector<Log> read = beginnings;
-    for (Log& log : read) reading.apply(log);
-    if (shrinks_motion(beginnings, read, robot)) continue;
+  std::vector<double> least_motion;
+  for (const JointGeometry& joint : robot.chain.geometry)
+    least_motion.push_back(joint.kind == AxisKind::revolute ? kLeastMotion_rad : kLeastMotion_m);
+  const auto explained_by = [&](const ColumnInterpretation& one, const std::vector<Log>& as_interpreted) {
     Robot other = robot;
-    if (reading.of_robot) reading.of_robot(other.chain);
-    const Explained then = explain(read, other);
-    if (!then.feasible || then.worst() < (now.feasible ? kRight : kSurelyRight)) continue;
-    if ((now.feasible || !best.what.empty()) && then.left() >= least) continue;
-    least = then.left();
-    best = {reading.what, reading.cure, now.worst(), then.worst()};
-  }
-  return best;
+    if (one.of_robot) one.of_robot(other.chain);
+    return explain(as_interpreted, other);
+  };
+  const Explained now = explain(beginnings, robot);
+  const auto score = [&](const ColumnInterpretation& one,
+                         const std::vector<Log>& as_interpreted) -> std::optional<double> {
+    const Explained then = explained_by(one, as_interpreted);
+    if (!then.feasible || then.worst() < (now.feasible ? kRight : kSurelyRight)) return std::nullopt;
+    return then.left();
+  };
+  const double limit = now.feasible ? now.left() + elementary::log(kClearlyLess) : INFINITY;
+  // Columns first: errors in them are more frequent.
+  for (const auto& interpretations :
+       {column_interpretations(robot.chain), gravity_interpretations(robot.chain)})
+    if (const auto* best = best_interpretation(interpretations, beginnings, least_motion, limit, score)) {
+      for (Log& log : beginnings) best->apply(log);
+      return {best->what, best->cure, now.worst(), explained_by(*best, beginnings).worst()};
+    }
+  return {};
 }
 
 }  // namespace faultline

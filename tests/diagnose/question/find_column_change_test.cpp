@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lib/diagnose/question/find_column_change.hpp"
-
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <numbers>
 #include <tuple>
 
+#include "lib/diagnose/question/check_interpretation.hpp"
 #include "lib/log/memory_source.hpp"
 #include "tests/support/rrp_runs.hpp"
 
