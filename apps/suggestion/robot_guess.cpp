@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kAllRows = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kSearchedRows = 20000, kSearchedColumns = 32;
-constexpr double kAgainst = -0.6, kWith = 0.6, kSurelyWith = 0.8;  // correlation of torque with acceleration
+constexpr double kSurelyWith = 0.8;  // correlation with acceleration of a torque among columns with names
 constexpr double kRatherAgainst = -0.2, kBrakes = -0.05;       // correlations with acceleration and velocity
 constexpr double kSurelyDegrees = 45.0, kSurelyRadians = 0.7;  // many turns in rad; too far for a slide in m
 
@@ -206,7 +206,7 @@ class Guesser {
             fmt::format(", {:.1f} +- {:.1f} rows late", torque.delay_rows, torque.delay_uncertainty_rows);
       const double power = units_[j].flipped ? -numbers_[j].power : numbers_[j].power;
       const bool against =
-          torque.correlation < kAgainst || (torque.correlation < kRatherAgainst && power < kBrakes);
+          torque.is_against_acceleration() || (torque.correlation < kRatherAgainst && power < kBrakes);
       if (!against) continue;
       one.spec.sign = -1.0;
       one.reason += "; sign: it decreases when the joint accelerates";
@@ -253,7 +253,7 @@ class Guesser {
     left.resize(std::min(left.size(), kSearchedColumns));
     for (int j = 1; j <= joints_; ++j) {
       auto best = left.end();
-      double most = is_named() ? kSurelyWith : kWith;
+      double most = is_named() ? kSurelyWith : TorqueRelated::kClear;
       for (auto at = left.begin(); at != left.end(); ++at) {
         const auto related = torques_related(
             std::vector<std::vector<double>>(static_cast<std::size_t>(joints_), excerpt_.values[*at]),

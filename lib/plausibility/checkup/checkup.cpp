@@ -24,7 +24,6 @@ constexpr std::size_t kMostChanges = 100;
 bool differs(double a, double b, double share) { return std::abs(a - b) > share * b; }
 
 constexpr int kHeadRows = 64;
-constexpr double kGapSteps = 3.0;
 
 }  // namespace
 
@@ -116,7 +115,7 @@ void Checkup::settle() {
     courses_.emplace_back(channel.quantity == Quantity::dq);
   });
   const auto joints = static_cast<std::size_t>(head_.joints());
-  velocity_.assign(head_.dq.empty() ? 0 : joints, VelocityRelation(kGapSteps * period_s));
+  velocity_.assign(head_.dq.empty() ? 0 : joints, VelocityRelation(period_s));
   if (!head_.tau.empty() && head_.joints() <= TorqueRelation::kMostJoints)
     torque_.emplace(head_.joints(), period_s);
   paths_.resize(joints);

@@ -15,7 +15,6 @@ constexpr double kMixedShare = 0.05;    // of the rows: coarse encoders have mor
 constexpr double kMovedSteps = 5.0;     // steps of the position, by which a joint seems to move
 constexpr double kMovedAtLeast = 0.01;  // rad or m
 constexpr double kMovedShare = 0.05;    // of the position's span
-constexpr double kAgainst = -0.6;       // correlation of a torque with the wrong sign
 constexpr double kLateRows = 1.5;
 constexpr double kOffVelocity = 0.1;  // relative, of a velocity's size to the position's change
 constexpr double kLittleNoise = 0.1;  // of that change: more makes it larger than any velocity
@@ -117,7 +116,7 @@ void judge_joints(const CheckupResult& checkup, Issues& issues) {
   for (std::size_t j = 0; j < checkup.joints.size(); ++j) {
     const auto& [velocity, torque] = checkup.joints[j];
     const int joint = static_cast<int>(j) + 1;
-    if (torque.correlation < kAgainst)
+    if (torque.is_against_acceleration())
       issues.add(
           {"torque_against_acceleration", to_string({Quantity::tau, joint}), Severity::warning,
            fmt::format("falls when the joint accelerates (correlation {:.2f}): the sign of torque or "

@@ -38,11 +38,10 @@ constexpr double kBend = 6.0;
 constexpr double kSmoothing_s = 0.015;
 constexpr std::size_t kMostHalf = 200;  // rows
 constexpr std::int64_t kFewestRows = 100;
-constexpr double kFriction = 0.02;  // rad/s or m/s over which friction changes its sign
-constexpr double kRelationGapSteps = 3.0;
+constexpr double kFriction = 0.02;         // rad/s or m/s over which friction changes its sign
+constexpr double kRelationGapSteps = 3.0;  // periods; a longer step interrupts the comparison
 constexpr double kRidge = 1e-10;
-constexpr double kTells = 0.6;       // partial correlation from which on a delay is estimated
-constexpr double kExplained = 0.9;   // share of the torque, likewise
+constexpr double kExplained = 0.9;   // share of the torque that motion explains, least for a delay
 constexpr double kStride_s = 0.006;  // between the delays that are tried, at least one row
 constexpr double kDoubt_s = 0.025;   // uncertainty of delays, as other joints' motion has its part in torques
 
@@ -78,7 +77,7 @@ void VelocityRelation::add(double t, double q, double dq) {
     run_ = 0;
     return;
   }
-  if (run_ > 0 && t - t_ > gap_s_) run_ = 0;
+  if (run_ > 0 && t - t_ > kRelationGapSteps * period_s_) run_ = 0;
   if (run_ > 0) {
     std::copy_backward(slopes_.begin(), slopes_.end() - 1, slopes_.end());
     std::copy_backward(velocities_.begin(), velocities_.end() - 1, velocities_.end());
@@ -230,7 +229,7 @@ TorqueRelated TorqueRelation::related(int joint, const Eigen::MatrixXd& inverse)
   found.inertia = factors[joint];
   const double t = factors[joint] * factors[joint] / (inverse(joint, joint) * rest);
   found.correlation = std::copysign(std::sqrt(t / (1.0 + t)), factors[joint]);
-  if (std::abs(found.correlation) > kTells && found.explained > kExplained) {
+  if (std::abs(found.correlation) > TorqueRelated::kClear && found.explained > kExplained) {
     found.delay_rows = static_cast<double>(stride_) * (valley_of(left) - kMostStrides);
     found.delay_uncertainty_rows = 0.5 + kDoubt_s / period_s_;
   }

@@ -23,8 +23,7 @@ class VelocityRelation {
  public:
   static constexpr int kMostRows = 8;  ///< of delay, late or early
 
-  /// A step longer than `gap_s` interrupts the comparison.
-  explicit VelocityRelation(double gap_s) : gap_s_(gap_s) {}
+  explicit VelocityRelation(double period_s) : period_s_(period_s) {}
   void add(double t, double q, double dq);
   VelocityRelated result() const;
 
@@ -33,7 +32,7 @@ class VelocityRelation {
   void compare();
   bool is_of_steps() const;
 
-  double gap_s_ = 0.0;
+  double period_s_;
   double t_ = 0.0, q_ = 0.0;
   std::int64_t run_ = 0;                                 ///< samples since the last interruption
   std::array<double, kDelays> slopes_{}, velocities_{};  ///< the latest first
@@ -57,6 +56,11 @@ struct TorqueRelated {
   double delay_rows = std::numeric_limits<double>::quiet_NaN();
   double delay_uncertainty_rows = std::numeric_limits<double>::quiet_NaN();  ///< uncertainty
   double inertia = std::numeric_limits<double>::quiet_NaN();  ///< about: torque per acceleration
+
+  /// Least size of the correlation that surely shows the sign and the delay of a torque; effects of other
+  /// joints and of friction stay below it.
+  static constexpr double kClear = 0.6;
+  bool is_against_acceleration() const { return correlation < -kClear; }
 };
 
 /// Regresses the torques on accelerations, velocities, their products and directions of all joints; positions
