@@ -20,7 +20,7 @@ class NormalTable {
     for (int k = 0; k < kNodes; ++k) {
       const double x = k / kPerUnit - kEnd;
       value_[k] = 0.5 * elementary::erfc(-x / std::numbers::sqrt2);
-      slope_[k] = elementary::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi) / kPerUnit;
+      slope_[k] = normal_density(x, 1.0) / kPerUnit;
     }
   }
 
@@ -96,6 +96,10 @@ Eigen::VectorXd two_sided_exponential(const Eigen::VectorXd& values, double deca
     out[k] += state - values[k];
   }
   return (1.0 - decay) / (1.0 + decay) * out;
+}
+
+double normal_density(double x, double std) {
+  return elementary::exp(-0.5 * Eigen::numext::abs2(x / std)) / (std * std::sqrt(2.0 * std::numbers::pi));
 }
 
 double normal_cdf(double x) {

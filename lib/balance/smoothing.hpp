@@ -26,4 +26,7 @@ Eigen::VectorXd two_sided_exponential(const Eigen::VectorXd& values, double deca
 /// Normal distribution function, to 2e-9.
 double normal_cdf(double x);
 
+/// Returns the density at `x` of a normal distribution of mean 0.
+double normal_density(double x, double std);
+
 }  // namespace faultline

@@ -2,12 +2,10 @@
 #include "lib/balance/work_piece.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
+#include "lib/balance/likely_states.hpp"
 #include "lib/balance/smoothing.hpp"
-#include "lib/core/elementary/elementary.hpp"
 
 namespace faultline {
 namespace {
@@ -25,30 +23,14 @@ double cost(double residual, double std) {
 
 PiecePath piece_path(const Eigen::MatrixXd& residual, const Eigen::MatrixXd& piece,
                      const Eigen::MatrixXd& std) {
-  const int rows = static_cast<int>(residual.rows());
-  std::vector<std::array<char, 2>> from(rows);
-  std::array<double, 2> sum = {0.0, 0.0};
-  for (int k = 0; k < rows; ++k) {
-    std::array<double, 2> row = {0.0, 0.0};
-    for (int j = 0; j < residual.cols(); ++j) {
+  Eigen::MatrixX2d nats = Eigen::MatrixX2d::Zero(residual.rows(), 2);
+  for (Eigen::Index k = 0; k < residual.rows(); ++k)
+    for (Eigen::Index j = 0; j < residual.cols(); ++j) {
       if (std(k, j) >= kNoEvidence) continue;
-      row[0] += cost(residual(k, j), std(k, j));
-      row[1] += cost(residual(k, j) - piece(k, j), std(k, j));
+      nats(k, 0) += cost(residual(k, j), std(k, j));
+      nats(k, 1) += cost(residual(k, j) - piece(k, j), std(k, j));
     }
-    const std::array<double, 2> before = sum;
-    for (int level = 0; level < 2; ++level) {
-      const bool changes = before[1 - level] + kChangeOfPiece < before[level];
-      from[k][level] = static_cast<char>(changes ? 1 - level : level);
-      sum[level] = (changes ? before[1 - level] + kChangeOfPiece : before[level]) + row[level];
-    }
-  }
-  PiecePath path(rows);
-  char level = sum[0] <= sum[1] ? 0 : 1;
-  for (int k = rows - 1; k >= 0; --k) {
-    path[k] = level;
-    level = from[k][static_cast<int>(level)];
-  }
-  return path;
+  return likely_states(nats, kChangeOfPiece);
 }
 
 std::vector<int> changes_of(const PiecePath& path) {
@@ -73,8 +55,7 @@ PieceRamps piece_ramps(const PiecePath& path, const Eigen::VectorXd& time_s, dou
       const double x = (time_s[k] - at) / kernel_s;
       out.level[k] += step * normal_cdf(x);
       if (std::abs(x) > kSurely) continue;
-      out.change(k, static_cast<int>(c)) =
-          step * elementary::exp(-0.5 * x * x) / (kernel_s * std::sqrt(2.0 * std::numbers::pi));
+      out.change(k, static_cast<int>(c)) = step * normal_density(time_s[k] - at, kernel_s);
     }
   }
   return out;

@@ -9,9 +9,9 @@ namespace faultline {
 /// Level of a work piece in each row: 0 without it, 1 with it.
 using PiecePath = std::vector<char>;
 
-/// Returns the most likely path of levels (Viterbi 1967). A row costs half the squares of `residual` (without
-/// a piece) or `residual` - `piece` (with it) over `std` (all rows x joints), each limited, so that an
-/// outlier decides nothing; a change costs kChangeOfPiece nats.
+/// Returns the most likely path of levels (likely_states()). A row costs half the squares of `residual`
+/// (without a piece) or `residual` - `piece` (with it) over `std` (all rows x joints), each limited, so that
+/// an outlier decides nothing; a change costs kChangeOfPiece nats.
 PiecePath piece_path(const Eigen::MatrixXd& residual, const Eigen::MatrixXd& piece,
                      const Eigen::MatrixXd& std);
 

@@ -11,6 +11,13 @@ namespace faultline {
 /// End of a fault that lasts to the end of the log, s.
 inline constexpr double kNeverEnds = std::numeric_limits<double>::infinity();
 
+/// Time in which a fault is present.
+struct FaultSpan {
+  double onset_s = 0.0, end_s = kNeverEnds;
+
+  bool operator==(const FaultSpan&) const = default;
+};
+
 /// A claim on a log: a fault of a kind at a joint, with onset, end and size.
 struct FaultClaim {
   FaultKind kind = FaultKind::none;

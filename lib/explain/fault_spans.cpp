@@ -2,10 +2,10 @@
 #include "lib/explain/fault_spans.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "lib/balance/likely_states.hpp"
 #include "lib/balance/regress.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/explain/search/search.hpp"
@@ -22,14 +22,6 @@ constexpr double kAbsentShare = 0.7;    // share of the evidence that an absent 
 constexpr double kSurelyLasts_s = 5.0;  // s after the onset or the start of the log in which the fault lasts
 constexpr int kRestRows = 8;            // rows that give the position of a locked joint
 constexpr int kMovesRows = 3;           // rows in succession that show that it moves again
-constexpr double kTakenBack = 0.3;      // share of a false reading's size by which the jump back may differ
-
-/// Time in which the fault is present.
-struct Span {
-  double onset_s = 0.0, end_s = kNeverEnds;
-
-  bool operator==(const Span&) const = default;
-};
 
 /// The log explained by a fault that is present in some spans.
 struct SpanFit {
@@ -38,31 +30,31 @@ struct SpanFit {
   double square = 1.0;  ///< mean square of the residuals
 };
 
-FaultColumns columns_in(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans) {
+FaultColumns columns_in(const LogFit& fit, const LinearFault& fault, const std::vector<FaultSpan>& spans) {
   FaultColumns out = fault.columns;
   out.column.setZero();
-  for (const Span& span : spans) out.column += fit.between(fault.columns, span.onset_s, span.end_s).column;
+  for (const FaultSpan& span : spans)
+    out.column += fit.between(fault.columns, span.onset_s, span.end_s).column;
   return out;
 }
 
-Explanation explained(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans) {
+Explanation explained(const LogFit& fit, const LinearFault& fault, const std::vector<FaultSpan>& spans) {
   return fit.explain_with_piece(fit.residual(), columns_in(fit, fault, spans), fault.starts,
                                 spans.front().onset_s);
 }
 
-/// Returns the fit with the effects of the day that explain the log best beside the fault.
-SpanFit fit_with_day(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans) {
-  const Explanation e = explained(fit, fault, spans);
-  return {e.size, fit.residual_without_fault(e), e.mean_square()};
-}
-
-/// Returns the fit with the effects of the day that the rows before the change show.
-SpanFit fit_with_day_before(const LogFit& fit, const LinearFault& fault, const std::vector<Span>& spans,
-                            const FreeForm& change) {
+/// Returns the fit with the effects of the day that explain the log best beside the fault or, with `change`,
+/// with those that the rows before the change show.
+SpanFit fit_in(const LogFit& fit, const LinearFault& fault, const std::vector<FaultSpan>& spans,
+               const FreeForm* change) {
+  if (change == nullptr) {
+    const Explanation e = explained(fit, fault, spans);
+    return {e.size, fit.residual_without_fault(e), e.mean_square()};
+  }
   const FaultColumns columns = columns_in(fit, fault, spans);
   const Regression sizes =
-      regress(normal_equations(fit.whitened(columns.column), change.left), columns.variance.cwiseInverse());
-  return {sizes.estimate, change.left, sizes.left / static_cast<double>(change.left.size())};
+      regress(normal_equations(fit.whitened(columns.column), change->left), columns.variance.cwiseInverse());
+  return {sizes.estimate, change->left, sizes.left / static_cast<double>(change->left.size())};
 }
 
 /// Returns the nats, by row, by which the row is more likely without the fault than with it.
@@ -78,36 +70,19 @@ VectorXd evidence_of_absence(const LogFit& fit, const StackedColumns& white, con
   return out;
 }
 
-/// Returns by row whether the fault is present: the most likely sequence of states, in which each change
-/// costs `price` nats. The fault begins with the row before `first` at the earliest.
-std::vector<bool> likely_states(const VectorXd& absence, int first, double price) {
-  const Eigen::Index rows = absence.size();
-  std::array<double, 2> cost = {0.0, price};  // absent, present
-  std::vector<std::array<bool, 2>> has_changed(rows);
-  for (Eigen::Index k = 0; k < rows; ++k) {
-    const std::array<double, 2> before = cost;
-    for (const int state : {0, 1}) {
-      const double stays = before[state], changes = before[1 - state] + price;
-      has_changed[k][state] = changes < stays;
-      cost[state] = std::min(stays, changes);
-    }
-    cost[0] -= absence[k];
-    if (k >= first) continue;
-    cost[1] = cost[0] + price;
-    has_changed[k][1] = true;
-  }
-  std::vector<bool> out(rows);
-  int state = cost[1] < cost[0] ? 1 : 0;
-  for (Eigen::Index k = rows - 1; k >= 0; --k) {
-    out[k] = state == 1;
-    if (has_changed[k][state]) state = 1 - state;
-  }
-  return out;
+/// Returns by row 1 if the fault is present, else 0. Each change costs `price` nats; the fault begins with
+/// the row before `first` at the earliest.
+std::vector<char> states_of(const VectorXd& absence, int first, double price) {
+  Eigen::MatrixX2d nats(absence.size(), 2);
+  nats << -absence, VectorXd::Zero(absence.size());
+  nats.col(1).head(first - 1).setConstant(std::numeric_limits<double>::infinity());
+  nats(first - 1, 1) = nats(first - 1, 0);
+  return likely_states(nats, price);
 }
 
 /// Returns the spans of the states; times shorter than kLeastStay_s get the state around them.
-std::vector<Span> spans_of(const LogFit& fit, const std::vector<bool>& present) {
-  std::vector<Span> out;
+std::vector<FaultSpan> spans_of(const LogFit& fit, const std::vector<char>& present) {
+  std::vector<FaultSpan> out;
   const double half_s = 0.5 * fit.model().setting.row_s();
   for (int k = 0; k < fit.count(); ++k) {
     const bool was = k > 0 && present[k - 1];
@@ -120,28 +95,27 @@ std::vector<Span> spans_of(const LogFit& fit, const std::vector<bool>& present) 
     }
     if (!present[k] && was) out.back().end_s = fit.time_s()[k] - half_s;
   }
-  std::erase_if(out, [](const Span& span) { return span.end_s - span.onset_s < kLeastStay_s; });
+  std::erase_if(out, [](const FaultSpan& span) { return span.end_s - span.onset_s < kLeastStay_s; });
   return out;
 }
 
 /// Spans of a fault with its size, and how well they explain the log.
 struct Spans {
-  std::vector<Span> spans{};
+  std::vector<FaultSpan> spans{};
   VectorXd size{};
   double log_likelihood = -std::numeric_limits<double>::infinity();
 };
 
-/// Estimates spans and size in turn, from the claim on. `white`: whitened columns of the fault, present in
-/// all rows. `fit_of` returns the fit of a fault in some spans.
-template <typename FitOf>
+/// Estimates spans and size in turn, from the claim on, with fits of fit_in(). `white`: whitened columns of
+/// the fault, present in all rows.
 Spans settled_spans(const LogFit& fit, const FaultClaim& claim, const LinearFault& fault,
-                    const StackedColumns& white, const FitOf& fit_of) {
+                    const StackedColumns& white, const FreeForm* change) {
   const int first = std::max(1, fit.first_row(fit.time_s()[0] + kLead_s));
-  std::vector<Span> spans = {{claim.onset_s, claim.end_s}};
+  std::vector<FaultSpan> spans = {{claim.onset_s, claim.end_s}};
   for (int round = 0; round < kRounds; ++round) {
-    const SpanFit by = fit_of(spans);
+    const SpanFit by = fit_in(fit, fault, spans, change);
     const double price = kEndEvidence * std::max(1.0, by.square);
-    std::vector<Span> next = spans_of(fit, likely_states(evidence_of_absence(fit, white, by), first, price));
+    std::vector<FaultSpan> next = spans_of(fit, states_of(evidence_of_absence(fit, white, by), first, price));
     if (next.empty()) return {};
     const bool is_settled = next == spans;
     spans = std::move(next);
@@ -175,23 +149,10 @@ std::optional<double> moves_from(const LogFit& fit, int joint, double from_s) {
 
 /// Returns when an encoder that is stuck from `from_s` on gives another code; `from_s` if it is not stuck.
 std::optional<double> reads_again_from(const LogFit& fit, int joint, double from_s) {
-  for (const RepeatedCode& run : repeated_codes(fit, joint))
+  for (const FaultSpan& run : repeated_codes(fit, joint))
     if (run.onset_s <= from_s && run.end_s > from_s)
       return run.end_s < kNeverEnds ? std::optional(run.end_s) : std::nullopt;
   return from_s;
-}
-
-/// Returns when a jump of the position reverses a false reading.
-std::optional<double> taken_back_at(const LogFit& fit, const FaultClaim& claim) {
-  std::optional<double> first;
-  for (const SensorJump& jump : sensor_jumps(fit, claim.joint - 1)) {
-    const double error = claim.kind == FaultKind::sensor_drift
-                             ? claim.size[0] * (jump.onset_s - claim.onset_s)
-                             : claim.size[0];
-    if (std::abs(jump.size + error) > kTakenBack * std::abs(error)) continue;
-    if (!first || jump.onset_s < *first) first = jump.onset_s;
-  }
-  return first;
 }
 
 /// A known fault and the index of its first size among the effects of the log.
@@ -223,7 +184,8 @@ std::optional<double> end_of(const LogFit& fit, const KnownFault& fault) {
   if (claim.kind == FaultKind::locked) return moves_from(fit, claim.joint - 1, from_s);
   if (claim.kind == FaultKind::stuck_encoder) return reads_again_from(fit, claim.joint - 1, from_s);
   if (falsifies_position(claim.kind))
-    if (const std::optional<double> back = taken_back_at(fit, claim)) return back;
+    if (const std::optional<double> back = taken_back_s(sensor_jumps(fit, claim.joint - 1), claim))
+      return back;
   return absent_from_s(fit, with_and_without(fit, fault, from_s + kSurelyLasts_s), from_s);
 }
 
@@ -232,16 +194,12 @@ std::optional<double> end_of(const LogFit& fit, const KnownFault& fault) {
 std::vector<FaultClaim> fault_spans(const LogFit& fit, const FaultClaim& claim, const FreeForm& change) {
   const LinearFault* fault = linear_of(fit.linear(), claim);
   if (fault == nullptr || claim.grows) return {};
-  const auto with_day = [&](const auto& spans) { return fit_with_day(fit, *fault, spans); };
-  const auto with_day_before = [&](const auto& spans) {
-    return fit_with_day_before(fit, *fault, spans, change);
-  };
   const StackedColumns white = fit.whitened(fault->columns.column);
-  const Spans own = settled_spans(fit, claim, *fault, white, with_day),
-              early = settled_spans(fit, claim, *fault, white, with_day_before),
+  const Spans own = settled_spans(fit, claim, *fault, white, nullptr),
+              early = settled_spans(fit, claim, *fault, white, &change),
               best = early.log_likelihood > own.log_likelihood ? early : own;
   std::vector<FaultClaim> out;
-  for (const Span& span : best.spans) {
+  for (const FaultSpan& span : best.spans) {
     out.push_back(claim);
     out.back().onset_s = span.onset_s;
     out.back().end_s = span.end_s;

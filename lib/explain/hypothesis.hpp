@@ -24,6 +24,9 @@ inline constexpr double kStuckShare = 0.98;      ///< least share of positions t
 inline constexpr double kFreeShare = 0.9;        ///< share of the torque lost: more is a free joint
 inline constexpr double kFormShare = 0.05;  ///< share of its effect that a known (no unknown) fault may miss
 
+inline constexpr double kLead_s = 0.5;  ///< at the start of a log, in which no onset is searched,
+inline constexpr int kLeadRows = 6;     ///< or rows, whichever is longer
+
 inline constexpr double kStandsOut = 8.0;      ///< nats from which an onset stands out
 inline constexpr double kWorthRefining = 5.0;  ///< nats from which an onset is refined
 inline constexpr double kMayWin = 0.3;         ///< share of the best evidence below which none is refined

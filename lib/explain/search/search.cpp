@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <optional>
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
@@ -22,10 +22,9 @@ using Eigen::VectorXd;
 constexpr std::array kBlows_s{.02, .05, .1, .25};  // lengths of a collision
 constexpr std::array kLengths_s{.3, 1., 3.};       // lengths of faults that end
 constexpr double kEndsScore = 10.0;                // nats by which an end must explain more in the search
-constexpr double kRest_s = 0.15;        // at the end of a log that gives the position of a joint at rest
-constexpr double kSurelyStands = 8.0;   // standard deviations of a position within which a joint stands still
-constexpr double kSpringDoubt = 0.3;    // share of a gear spring's deflection: error of its model
-constexpr double kJumpTakenBack = 0.3;  // share of a jump's size by which the jump back may differ
+constexpr double kRest_s = 0.15;       // at the end of a log that gives the position of a joint at rest
+constexpr double kSurelyStands = 8.0;  // standard deviations of a position within which a joint stands still
+constexpr double kSpringDoubt = 0.3;   // share of a gear spring's deflection: error of its model
 constexpr double kLeastTolerance = 1e-5;  // rad or m that a joint may move while it stands
 constexpr double kLeastNoise = 1e-6;      // rad or m: noise of a position, at least
 constexpr double kJumpScore = 10.0,
@@ -33,8 +32,8 @@ constexpr double kJumpScore = 10.0,
 constexpr double kShift = 1e-3;       // rad or m of a numeric derivative
 constexpr std::array kDrifts{.003, .006, .012, .02, .03, .04, .06, .1};  // rad/s
 constexpr double kSlideShare = 0.5;   // m/s of a slide for each rad/s of a revolute joint
-constexpr double kNoTorque = 1e-9;    // N m for each rad, below which the position of a joint has no effect
 constexpr double kKernelReach = 4.0;  // standard deviations at which the kernel is cut
+constexpr double kNoTorque = 1e-9;    // N m for each rad, below which the position of a joint has no effect
 
 void append(std::vector<Candidate> more, std::vector<Candidate>& out) {
   out.insert(out.end(), more.begin(), more.end());
@@ -92,11 +91,11 @@ std::vector<Candidate> search_standstill(const LogFit& fit, int j) {
       upper_median({stands.place.data() + fit.count() - tail, stands.place.data() + fit.count()});
   int since = fit.count();
   while (since > 0 && std::abs(stands.place[since - 1] - rest) <= stands.tolerance) --since;
-  const int first = std::max(6, static_cast<int>(kLead_s / row_s));
   std::vector<Candidate> out;
-  for (const int before : {0, 2, 5})
-    out.push_back(
-        {{FaultKind::locked, j + 1, fit.time_s()[std::clamp(since - before, first, fit.count() - kTail)]}});
+  for (const int before : {0, 2, 5}) {
+    const int row = std::clamp(since - before, first_onset_row(fit), fit.count() - kTail);
+    out.push_back({{FaultKind::locked, j + 1, fit.time_s()[row]}});
+  }
   return out;
 }
 
@@ -108,14 +107,9 @@ std::vector<Candidate> search_jumps(const LogFit& fit, int j) {
     FaultClaim claim{FaultKind::sensor_bias, j + 1, jump.onset_s, kNeverEnds,
                      VectorXd::Constant(1, jump.size)};
     out.push_back({claim, kJumpScore});
-    const SensorJump* back = nullptr;  // the next one that reverses it
-    for (const SensorJump& other : jumps)
-      if (other.onset_s > jump.onset_s &&
-          std::abs(other.size + jump.size) < kJumpTakenBack * std::abs(jump.size) &&
-          (back == nullptr || other.onset_s < back->onset_s))
-        back = &other;
-    if (back == nullptr) continue;
-    claim.end_s = back->onset_s;
+    const std::optional<double> back_s = taken_back_s(jumps, claim);
+    if (!back_s) continue;
+    claim.end_s = *back_s;
     out.push_back({claim, kJumpScore});
   }
   return out;
@@ -134,10 +128,8 @@ Impulse impulse_of(const WhiteSearch& s, const MatrixXd& inertia) {
   const int rows = fit.count(),
             half = static_cast<int>(std::ceil(kKernelReach * setting.kernel_s / setting.row_s()));
   VectorXd kernel(2 * half + 1);
-  for (int k = -half; k <= half; ++k) {
-    const double x = k * setting.row_s() / setting.kernel_s;
-    kernel[half + k] = elementary::exp(-0.5 * x * x) / (setting.kernel_s * std::sqrt(2.0 * std::numbers::pi));
-  }
+  for (int k = -half; k <= half; ++k)
+    kernel[half + k] = normal_density(k * setting.row_s(), setting.kernel_s);
   VectorXd vector = VectorXd::Zero(rows), square = VectorXd::Zero(rows);
   for (int i = 0; i < fit.joints(); ++i) {
     if (inertia.col(i).isZero(0.0)) continue;
@@ -310,7 +302,7 @@ std::vector<Candidate> search(const LogFit& fit) {
   for (int j = 0; j < fit.joints(); ++j) {
     append(search_standstill(fit, j), out);
     append(search_jumps(fit, j), out);
-    for (const RepeatedCode& run : repeated_codes(fit, j))
+    for (const FaultSpan& run : repeated_codes(fit, j))
       for (const FaultKind kind : {FaultKind::stuck_encoder, FaultKind::locked})
         out.push_back({{kind, j + 1, run.onset_s, run.end_s}, kRepeatScore});
   }

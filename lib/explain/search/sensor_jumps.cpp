@@ -19,6 +19,7 @@ constexpr int kAround = 14;            // samples on each side from which a step
 constexpr double kFewWaves = 0.3;      // decay of the fusion: below, the velocity is too noisy to show steps
 constexpr double kHighRate_s = 0.005;  // s: below, a cubic of the time beside the step gives its size
 constexpr double kMostOfJump = 50.0;   // nats: no fault by itself, for one measurement may be false
+constexpr double kTakenBack = 0.3;     // share of a false reading's size by which its opposite may differ
 constexpr std::size_t kMostRuns = 3;   // of repeated codes: the longest, and those of the most lost travel
 constexpr int kManyRepeats = 12;       // samples: if healthy positions repeat so long, it is no evidence
 
@@ -48,7 +49,7 @@ VectorXd off_motion(const LogFit& fit, int j) {
 
 /// Successive samples that repeat one code.
 struct RunOfCodes {
-  RepeatedCode code;
+  FaultSpan code;
   int samples = 0;
   double lost_travel = 0.0;  ///< of the joint at its speed before them; two samples of it, times their number
 };
@@ -106,6 +107,19 @@ std::vector<SensorJump> sensor_jumps(const LogFit& fit, int j) {
   return out;
 }
 
+bool takes_back(double b, double a) { return std::abs(a + b) <= kTakenBack * std::abs(a); }
+
+std::optional<double> taken_back_s(const std::vector<SensorJump>& jumps, const FaultClaim& claim) {
+  std::optional<double> first;
+  for (const SensorJump& jump : jumps) {
+    const double lasts_s = jump.onset_s - claim.onset_s,
+                 error = claim.kind == FaultKind::sensor_drift ? claim.size[0] * lasts_s : claim.size[0];
+    if (lasts_s > 0.0 && takes_back(jump.size, error) && (!first || jump.onset_s < *first))
+      first = jump.onset_s;
+  }
+  return first;
+}
+
 double jump_evidence(const LogFit& fit, const FaultClaim& claim) {
   const int j = claim.joint - 1;
   const UniformLog& log = fit.log();
@@ -121,9 +135,15 @@ double jump_evidence(const LogFit& fit, const FaultClaim& claim) {
   return std::clamp(0.5 * (jump * jump - left * left) / variance, 0.0, kMostOfJump);
 }
 
+int repeats(const UniformLog& log, int j, int begin, int end) {
+  int out = 0;
+  for (int k = std::max(1, begin); k < end; ++k) out += log.q(k, j) == log.q(k - 1, j);
+  return out;
+}
+
 bool repeats_are_rare(const BalanceModel& model, int j) { return model.longest_repeat[j] < kManyRepeats; }
 
-std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int j) {
+std::vector<FaultSpan> repeated_codes(const LogFit& fit, int j) {
   const UniformLog& log = fit.log();
   const BalanceModel& m = fit.model();
   const double least =
@@ -139,12 +159,12 @@ std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int j) {
                       std::abs(log.q(first, j) - log.q(std::max(0, first - 2), j)) * (next - first)});
     first = next;
   }
-  std::vector<RepeatedCode> out;
+  std::vector<FaultSpan> out;
   const auto add_most = [&](auto RunOfCodes::*criterion) {
     std::ranges::stable_sort(runs, std::ranges::greater{}, criterion);
     const std::size_t most = std::min(runs.size(), kMostRuns);
     for (std::size_t k = 0; k < most; ++k)
-      if (std::ranges::find(out, runs[k].code.onset_s, &RepeatedCode::onset_s) == out.end())
+      if (std::ranges::find(out, runs[k].code.onset_s, &FaultSpan::onset_s) == out.end())
         out.push_back(runs[k].code);
   };
   add_most(&RunOfCodes::samples);

@@ -16,21 +16,23 @@ struct SensorJump {
 
 std::vector<SensorJump> sensor_jumps(const LogFit& fit, int joint);
 
+/// Returns whether a false reading of size `b` takes back one of size `a`.
+bool takes_back(double b, double a);
+/// Returns when the first jump takes back a false reading, if one does.
+std::optional<double> taken_back_s(const std::vector<SensorJump>& jumps, const FaultClaim& claim);
+
 /// Returns the nats by which the jump of a false position (FaultKind::sensor_bias) explains the measurements
 /// at its onset better than the motion by the velocity; 0 unless that is measured independently.
 double jump_evidence(const LogFit& fit, const FaultClaim& claim);
 
+/// Returns how many of the samples from `begin` to before `end` repeat the position before them.
+int repeats(const UniformLog& log, int joint, int begin, int end);
+
 /// Returns whether repeated codes of a position are evidence: healthy logs repeat it for a few samples only.
 bool repeats_are_rare(const BalanceModel& model, int joint);
 
-/// A position that repeats one code for longer than healthy logs show.
-struct RepeatedCode {
-  double onset_s = 0.0;
-  double end_s = kNeverEnds;
-};
-
-/// Returns the longest of them, then those in which the joint would have moved most at its speed before: a
-/// joint at rest slows down first.
-std::vector<RepeatedCode> repeated_codes(const LogFit& fit, int joint);
+/// Returns when the position repeats one code for longer than healthy logs show: the longest of these spans,
+/// then those in which the joint would have moved most at its speed before: a joint at rest slows down first.
+std::vector<FaultSpan> repeated_codes(const LogFit& fit, int joint);
 
 }  // namespace faultline

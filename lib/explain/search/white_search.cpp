@@ -2,7 +2,6 @@
 #include "lib/explain/search/white_search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "lib/core/elementary/elementary.hpp"
@@ -16,7 +15,6 @@ using Eigen::Ref;
 using Eigen::VectorXd;
 
 constexpr double kApart_s = 0.15;  // between two onsets of one kind and joint
-constexpr int kFirstOnsetRow = 6;  // rows without an onset at the start, if kLead_s has fewer
 constexpr double kNothing = -std::numeric_limits<double>::infinity();  // score of a row that is no onset
 
 /// Normal equations of some columns for an onset at each row.
@@ -76,6 +74,10 @@ VectorXd gains_of(const OnsetEquations& equations, const VectorXd& variance, int
 }
 
 }  // namespace
+
+int first_onset_row(const LogFit& fit) {
+  return std::max(kLeadRows, static_cast<int>(kLead_s / fit.model().setting.row_s()));
+}
 
 WhiteSearch white_search(const LogFit& fit) {
   const int rows = fit.count();
@@ -145,7 +147,7 @@ std::vector<VectorXd> onset_gains(const WhiteSearch& s, const FaultColumns& colu
 
 std::vector<Candidate> peaks(const LogFit& fit, const FaultClaim& claim, VectorXd score, int most) {
   const double row_s = fit.model().setting.row_s();
-  const int first = std::max(kFirstOnsetRow, static_cast<int>(kLead_s / row_s)), last = fit.count() - kTail;
+  const int first = first_onset_row(fit), last = fit.count() - kTail;
   const int apart = std::max(1, static_cast<int>(kApart_s / row_s));
   for (int k = 0; k < fit.count(); ++k)
     if (k < first || k >= last || !(score[k] > kNothing)) score[k] = kNothing;

@@ -7,8 +7,10 @@
 
 namespace faultline {
 
-inline constexpr double kLead_s = 0.5;  ///< at the start of a log, in which no onset is searched
-inline constexpr int kTail = 2;         ///< rows at the end, in which none is searched
+inline constexpr int kTail = 2;  ///< rows at the end, in which none is searched
+
+/// Returns the first row at which an onset is searched.
+int first_onset_row(const LogFit& fit);
 
 /// A claim to judge; its size, if any, is the initial one of a sensor fault.
 struct Candidate : FaultClaim {

@@ -32,9 +32,9 @@ Log with_rests(Log log) {
 TEST(RepeatedCodes, OfAStuckEncoderAreAmongManyLongerRests) {
   Log log = with_rests(simulate_closed_form(of_day(0), run_of(31)));
   for (int k = 1301; k < 1360; ++k) log.q[1][k] = log.q[1][1300];  // in motion
-  const std::vector<RepeatedCode> codes = repeated_codes(fit_of(std::move(log)), 1);
+  const std::vector<FaultSpan> codes = repeated_codes(fit_of(std::move(log)), 1);
   const auto stuck = std::ranges::find_if(
-      codes, [](const RepeatedCode& code) { return std::abs(code.onset_s - 1300 * 0.004) < 1e-9; });
+      codes, [](const FaultSpan& code) { return std::abs(code.onset_s - 1300 * 0.004) < 1e-9; });
   ASSERT_NE(stuck, codes.end());
   EXPECT_NEAR(stuck->end_s, 1360 * 0.004, 1e-9);
 }
