@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lib/explain/coarse/coarse_search.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
-#include "lib/core/elementary/elementary.hpp"
+#include "lib/balance/regress.hpp"
 #include "lib/explain/hypothesis.hpp"
 #include "lib/robot/payload.hpp"
 
@@ -30,51 +30,49 @@ constexpr double kStrikes = 10.0;        // mean square of the innovations of a 
 constexpr std::size_t kOnsetsTried = 3;  // onsets of the best candidates that are kept
 constexpr double kWrongWay = -9.0;       // score in nats of a negative loss or payload, which is impossible
 
-/// Columns of one kind and joint.
+/// Successive columns of one kind and joint.
 struct Group {
   FaultKind kind = FaultKind::none;
   int joint = 0;
   double duration_s = 0.0;
-  std::vector<int> column;
-  VectorXd std;
+  Eigen::Index begin = 0;  ///< first column
+  VectorXd std;            ///< of the size of each
 };
 
 /// All columns that are tried: those of numbers (numbers x columns), then those of measurements.
 struct Catalogue {
-  MatrixXd direction;            ///< numbers x columns; zero for measurements
-  std::vector<int> length;       ///< by column, intervals; 0: to the end of the log
-  std::vector<int> bias, drift;  ///< columns by joint
+  MatrixXd direction;                ///< numbers x columns; zero for measurements
+  std::vector<int> length;           ///< by column, intervals; 0: to the end of the log
+  Eigen::Index bias = 0, drift = 0;  ///< first column of these kinds, which have one for each joint
   std::vector<Group> groups;
 };
 
 Catalogue catalogue(const CoarseLog& log) {
   const OneStepModel& m = *log.model;
-  const int n = log.joints(), numbers = m.layout().count();
+  const int n = log.joints();
   Catalogue out;
-  out.direction = MatrixXd::Zero(numbers, (7 + static_cast<int>(std::size(kBlow_s))) * n);
-  int next = 0;
-  const auto add = [&](FaultKind kind, int joint, double duration) {
-    const FaultDirections fault = fault_directions(m, kind, joint);
-    Group group{kind, joint, duration, {}, fault.std};
-    for (int i = 0; i < fault.std.size(); ++i) {
-      out.direction.col(next) = fault.direction.col(i);
-      out.length.push_back(duration > 0.0 ? static_cast<int>(std::lround(duration / log.period_s())) : 0);
-      group.column.push_back(next++);
-    }
+  out.direction.resize(m.layout().count(), 0);
+  const auto add = [&](FaultKind kind, int joint, double duration_s = 0.0) {
+    const MatrixXd direction = fault_directions(m, kind, joint).direction;
+    Group group{kind, joint, duration_s, out.direction.cols(), prior_of_sizes(m, kind, joint)};
+    out.direction.conservativeResize(Eigen::NoChange, group.begin + group.std.size());
+    if (direction.size() > 0)
+      out.direction.rightCols(group.std.size()) = direction;
+    else
+      out.direction.rightCols(group.std.size()).setZero();
+    out.length.resize(out.direction.cols(), static_cast<int>(std::lround(duration_s / log.period_s())));
     out.groups.push_back(std::move(group));
   };
-  for (int j = 1; j <= n; ++j) add(FaultKind::torque_loss, j, 0.0);
-  for (int j = 1; j <= n; ++j) add(FaultKind::friction_increase, j, 0.0);
-  for (int j = 1; j <= n; ++j) add(FaultKind::torque_sensor_error, j, 0.0);
-  for (const int link : payload_links(m.body.rigid().chain)) add(FaultKind::payload_change, link + 1, 0.0);
+  for (const FaultKind kind :
+       {FaultKind::torque_loss, FaultKind::friction_increase, FaultKind::torque_sensor_error})
+    for (int j = 1; j <= n; ++j) add(kind, j);
+  for (const int link : payload_links(m.body.rigid().chain)) add(FaultKind::payload_change, link + 1);
   for (const double length : kBlow_s)
     add(FaultKind::collision, n, std::max(1.0, std::round(length / log.period_s())) * log.period_s());
-  for (const FaultKind kind : {FaultKind::sensor_bias, FaultKind::sensor_drift})
-    for (int j = 1; j <= n; ++j) {
-      (kind == FaultKind::sensor_bias ? out.bias : out.drift).push_back(next);
-      out.length.push_back(0);
-      out.groups.push_back({kind, j, 0.0, {next++}, prior_of_sizes(m, kind, j)});
-    }
+  out.bias = out.direction.cols();
+  for (int j = 1; j <= n; ++j) add(FaultKind::sensor_bias, j);
+  out.drift = out.direction.cols();
+  for (int j = 1; j <= n; ++j) add(FaultKind::sensor_drift, j);
   return out;
 }
 
@@ -126,9 +124,9 @@ OnsetSums sums_from(const CoarseLog& log, const Base& base, const Catalogue& all
         pulse.col(k * width + c) = column.col(k * width + c);
   for (int k = from; k < end; ++k)
     for (int j = 0; j < log.joints(); ++j) {
-      read(j, k * width + all.bias[j]) = 1.0;
-      read(j, k * width + all.drift[j]) = (k - from) * log.period_s();
-      read(log.joints() + j, k * width + all.drift[j]) = 1.0;
+      read(j, k * width + all.bias + j) = 1.0;
+      read(j, k * width + all.drift + j) = (k - from) * log.period_s();
+      read(log.joints() + j, k * width + all.drift + j) = 1.0;
     }
   const Eigen::Map<const VectorXd> keep(log.keep.data(), log.keep.size());
   const MatrixXd x = keep.segment(states * from, rows).asDiagonal() *
@@ -139,16 +137,13 @@ OnsetSums sums_from(const CoarseLog& log, const Base& base, const Catalogue& all
 }
 
 CoarseCandidate candidate(const CoarseLog& log, const Group& group, const OnsetSums& sums, int sample) {
-  MatrixXd a = sums.square(group.column, group.column);
-  const VectorXd u = sums.vector(group.column);
-  a.diagonal() += group.std.cwiseAbs2().cwiseInverse();
-  const Eigen::LLT<MatrixXd> factor(a);
-  CoarseCandidate out;
-  out.guess = {group.kind, group.joint, log.time_s(sample), group.duration_s, factor.solve(u)};
-  out.sample = sample;
-  out.score = 0.5 * u.dot(out.guess.start);
-  for (int i = 0; i < u.size(); ++i)
-    out.score -= elementary::log(factor.matrixLLT()(i, i)) + elementary::log(group.std[i]);
+  const Eigen::Index begin = group.begin, sizes = group.std.size();
+  const Regression fit =
+      regress({sums.square.block(begin, begin, sizes, sizes), sums.vector.segment(begin, sizes)},
+              group.std.cwiseAbs2().cwiseInverse());
+  CoarseCandidate out{{group.kind, group.joint, log.time_s(sample), group.duration_s, fit.estimate},
+                      sample,
+                      fit.log_likelihood};
   const bool positive = group.kind == FaultKind::torque_loss || group.kind == FaultKind::payload_change;
   if (positive && out.guess.start[0] < 0.0) out.score = kWrongWay;
   return out;
@@ -173,18 +168,14 @@ void keep_best(std::vector<CoarseCandidate> group, int apart, std::vector<Coarse
 /// before it: a fault biases those of the whole log.
 std::optional<int> strike_of(const CoarseLog& log, const Base& base) {
   const int states = log.healthy_steps.states;
-  VectorXd effect = VectorXd::Zero(base.day.cols());
-  MatrixXd covariance = log.model->day_variance.asDiagonal();
+  RecursiveRegression day(log.model->day_variance.cwiseInverse());
+  std::vector<int> effects(base.day.cols());
+  std::iota(effects.begin(), effects.end(), 0);
   for (int k = 0; k < log.samples(); ++k) {
-    double square = 0.0;
-    for (int i = k * states; i < (k + 1) * states; ++i) {  // recursive least squares, row by row
-      const VectorXd x = base.day.row(i).transpose(), px = covariance * x;
-      const double variance = 1.0 + x.dot(px), off = base.row[i] - x.dot(effect);
-      square += off * off / variance;
-      effect += px * (off / variance);
-      covariance -= px * px.transpose() / variance;
-    }
-    if (k >= log.first_onset() && square > kStrikes * states) return k;
+    const double before = day.square();
+    for (int i = k * states; i < (k + 1) * states; ++i)
+      day.add(base.day.row(i).transpose(), effects, base.row[i]);
+    if (k >= log.first_onset() && day.square() - before > kStrikes * states) return k;
   }
   return std::nullopt;
 }
