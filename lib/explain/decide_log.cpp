@@ -23,16 +23,16 @@ std::vector<LabelScore> scores_of(const LogExplanation& e) {
   return out;
 }
 
-/// Returns the evidence over time of `best` and of the hypotheses that come next to it.
-EvidenceTrace trace_of(const LogExplanation& e, const FaultHypothesis& best, const EvidenceCourse& course,
-                       const LogEvidence& evidence, double until_s) {
-  std::vector<FaultLabel> labels = {best.label()};
+/// Returns the evidence over time of a fault, which is `course`, and of the hypotheses that come next to it.
+EvidenceTrace trace_of(const LogExplanation& e, const FaultLabel& fault, const EvidenceCourse& course,
+                       double until_s) {
+  std::vector<FaultLabel> labels = {fault};
   std::vector<EvidenceCourse> courses = {course};
   for (const FaultHypothesis& h : e.best) {
     if (courses.size() == kTraced) break;
-    if (h.kind == FaultKind::unknown || h.label() == best.label()) continue;
+    if (h.kind == FaultKind::unknown || h.label() == fault) continue;
     labels.push_back(h.label());
-    courses.push_back(evidence.course(h));
+    courses.push_back(h.course);
   }
   return faultline::trace_of(labels, courses, until_s);
 }
@@ -55,64 +55,55 @@ EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy) {
   return out;
 }
 
-LogEvidence log_evidence(const LogFit& fit, const LogExplanation& e) {
-  return {[&fit](const FaultHypothesis& h) { return evidence_course(fit, h); },
-          [&fit, &e](const FaultHypothesis& h) { return misfit(fit, e.free_form, h); },
-          [&fit, &e] { return evidence_course(fit, e.free_form); }};
-}
-
 double least_limit(const EvidenceLimits& limits) { return *std::ranges::min_element(limits.nats); }
 
 std::vector<ExplainedFault> named_faults(const LogExplanation& e, const EvidenceLimits& limits,
-                                         const LogEvidence& evidence, std::size_t most) {
+                                         std::size_t most) {
   std::vector<ExplainedFault> out;
   for (auto best = e.best.begin(); best != e.best.end() && out.size() < most; ++best) {
     if (!passes(*best, limits)) continue;
     ExplainedFault& fault = out.emplace_back();
     fault.claim = *best;
     fault.evidence = best->gain;
-    fault.misfit = evidence.misfit(*best);
+    fault.misfit = best->misfit;
     const double left = best->fit.mean_square(), scale = std::max(1.0, left);
     fault.residual_share = std::max(0.0, left - 1.0) / std::max(1.0, e.healthy_square - 1.0);
     for (auto h = best + 1; h != e.best.end(); ++h)
       if ((best->gain - h->gain) / scale < kAlmost || h->gain > kAlmostShare * best->gain)
         fault.could_also_be.push_back(h->label());
     fault.limit = limits.of(best->kind);
-    const EvidenceCourse course = evidence.course(*best);
-    fault.alarm_s = course.alarm_s(fault.limit);
+    fault.alarm_s = best->course.alarm_s(fault.limit);
     fault.scores = scores_of(e);
-    fault.trace = trace_of(e, *best, course, evidence, fault.alarm_s + kTracedBeyond_s);
+    fault.trace = trace_of(e, best->label(), best->course, fault.alarm_s + kTracedBeyond_s);
     fault.trace.limit = fault.limit;
   }
   return out;
 }
 
-ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& e, const LogEvidence& evidence) {
+ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& e) {
   ExplainedFault out = named;
   out.claim.kind = FaultKind::unknown;
   out.claim.size = {};
   out.could_also_be.insert(out.could_also_be.begin(), named.label());
-  if (!evidence.course_of_free_form) return out;
+  if (e.free_course.time_s.empty()) return out;
   out.claim.onset_s = e.free_form.onset_s;
   out.claim.end_s = e.free_form.end_s;
-  out.alarm_s = evidence.course_of_free_form().alarm_s(named.limit);
+  out.alarm_s = e.free_course.alarm_s(named.limit);
   return out;
 }
 
-std::optional<ExplainedFault> unnamed_fault(const LogExplanation& e, const EvidenceLimits& limits,
-                                            const LogEvidence& evidence) {
+std::optional<ExplainedFault> unnamed_fault(const LogExplanation& e, const EvidenceLimits& limits) {
   const double limit = std::max(kOfNoKind, limits.of(FaultKind::unknown));
   if (e.best.empty() || e.free_gain <= limit) return std::nullopt;
-  FaultHypothesis nearest = e.best.front();
+  const FaultHypothesis& nearest = e.best.front();
   ExplainedFault named;
   named.claim = nearest;
   named.evidence = e.free_gain;
   named.limit = limit;
-  named.misfit = evidence.misfit(nearest);
+  named.misfit = nearest.misfit;
   named.scores = scores_of(e);
-  ExplainedFault out = as_unknown(named, e, evidence);
-  nearest.kind = FaultKind::unknown;
-  out.trace = trace_of(e, nearest, evidence.course_of_free_form(), evidence, out.alarm_s + kTracedBeyond_s);
+  ExplainedFault out = as_unknown(named, e);
+  out.trace = trace_of(e, out.label(), e.free_course, out.alarm_s + kTracedBeyond_s);
   out.trace.limit = limit;
   return out;
 }
@@ -141,12 +132,11 @@ bool suffices(const ExplainedFault& named) {
          (named.claim.kind == FaultKind::locked && named.residual_share < kNearlyAll);
 }
 
-std::optional<ExplainedFault> decide_log(const LogExplanation& e, const EvidenceLimits& limits,
-                                         const LogEvidence& evidence) {
-  const std::vector<ExplainedFault> named = named_faults(e, limits, evidence, 1);
-  if (named.empty()) return unnamed_fault(e, limits, evidence);
+std::optional<ExplainedFault> decide_log(const LogExplanation& e, const EvidenceLimits& limits) {
+  const std::vector<ExplainedFault> named = named_faults(e, limits, 1);
+  if (named.empty()) return unnamed_fault(e, limits);
   if (suffices(named.front())) return named.front();
-  return as_unknown(named.front(), e, evidence);
+  return as_unknown(named.front(), e);
 }
 
 }  // namespace faultline

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -71,30 +70,17 @@ EvidenceLimits above_false_alarm(EvidenceLimits limits, const ExplainedFault& fa
 
 inline constexpr double kBeyondSimulated = 1.5;  ///< factor; there are more simulated logs than recorded ones
 
-/// Functions that decide on the hypotheses of a log: the evidence of a hypothesis over time, its misfit (nats
-/// by which a free form explains the log better), and the evidence of the free form over time. Without the
-/// last one, an unknown fault has the onset and the alarm of the nearest hypothesis.
-struct LogEvidence {
-  std::function<EvidenceCourse(const FaultHypothesis&)> course;
-  std::function<double(const FaultHypothesis&)> misfit;
-  std::function<EvidenceCourse()> course_of_free_form{};
-};
-
-/// Returns these functions for rows of 50 Hz and more; both arguments must outlive them.
-LogEvidence log_evidence(const LogFit& fit, const LogExplanation& explanation);
-
 /// Returns the best hypotheses that exceed their limits as faults: at most `most`, best first.
 std::vector<ExplainedFault> named_faults(const LogExplanation& explanation, const EvidenceLimits& limits,
-                                         const LogEvidence& evidence, std::size_t most);
+                                         std::size_t most);
 
-/// Returns a fault of no known kind to which `named` is the nearest one.
-ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& explanation,
-                          const LogEvidence& evidence);
+/// Returns a fault of no known kind to which `named` is the nearest one, with onset and alarm of the free
+/// form; with its own at coarse rates.
+ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& explanation);
 
 /// Returns a fault of no known kind for a log without a hypothesis above its limit. Empty unless a free form
 /// explains the log better than the healthy robot by more than its own limit and kOfNoKind.
-std::optional<ExplainedFault> unnamed_fault(const LogExplanation& explanation, const EvidenceLimits& limits,
-                                            const LogEvidence& evidence);
+std::optional<ExplainedFault> unnamed_fault(const LogExplanation& explanation, const EvidenceLimits& limits);
 
 inline constexpr double kOfNoKind = 200.0;  ///< nats of misfit above which a fault may be of no known kind
 
@@ -109,7 +95,6 @@ bool suffices(const ExplainedFault& named);
 
 /// Returns the fault that explains the log best, as `unknown` if it does not suffice. If no hypothesis
 /// exceeds its limit, returns that of unnamed_fault(), if any.
-std::optional<ExplainedFault> decide_log(const LogExplanation& explanation, const EvidenceLimits& limits,
-                                         const LogEvidence& evidence);
+std::optional<ExplainedFault> decide_log(const LogExplanation& explanation, const EvidenceLimits& limits);
 
 }  // namespace faultline

@@ -19,8 +19,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Numbers of onsets that stand out: of all kinds together; of these, tried for each kind and for a drift.
-constexpr std::size_t kOnsets = 6, kOnsetsForAll = 6, kOnsetsOfDrifts = 4;
+// Numbers of onsets that stand out: of all kinds together, as many of which are tried for each kind; for a
+// drift.
+constexpr std::size_t kOnsets = 6, kOnsetsOfDrifts = 4;
 constexpr double kMuchLess = 0.5;  // share of a torque loss's excess over noise: a clipping drive leaves less
 constexpr double kMayPass =
     0.33;  // share of the least limit from which a log is judged: the search is not exact
@@ -31,11 +32,14 @@ constexpr double kSameNoise = 0.1;       // of a variance: noises that differ by
 constexpr std::size_t kBeside = 5;       // best hypotheses beside which the noise is estimated anew
 constexpr int kRoundsOfNoise = 3;        // of the noise beside the best explanation
 
-std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, int joint) {
+/// Returns the `most` best candidates of a kind and joint, best first.
+std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, int joint,
+                          std::size_t most = std::numeric_limits<std::size_t>::max()) {
   std::vector<Candidate> out;
   for (const Candidate& c : all)
     if (c.kind == kind && c.joint == joint) out.push_back(c);
   std::ranges::stable_sort(out, std::ranges::greater{}, &Candidate::score);
+  if (out.size() > most) out.resize(most);
   return out;
 }
 
@@ -77,7 +81,7 @@ void judge_linear_kinds(const std::vector<Candidate>& all, const std::vector<dou
   for (const int k : changes_of(fit.healthy().path)) changes.push_back(fit.time_s()[k + 1]);
   for (const LinearFault& fault : fit.linear()) {
     const std::vector<Candidate> own = of(all, fault.kind, fault.joint);
-    std::set<double> onsets = onsets_of(own, common, kOnsetsForAll);
+    std::set<double> onsets = onsets_of(own, common, kOnsets);
     if (fault.joint == fit.joints()) onsets.insert(changes.begin(), changes.end());
     for (const double t : onsets)
       bench.go({.kind = fault.kind, .joint = fault.joint, .onset_s = t, .grows = fault.columns.grow});
@@ -91,22 +95,20 @@ void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change,
   const LogFit& fit = bench.fit;
   const std::vector<double> common = onsets_to_try(all, change, fit.model().setting.row_s());
   judge_linear_kinds(all, common, bench);
-  std::vector<Candidate> blows = of(all, FaultKind::collision, fit.joints());
-  if (blows.size() > 4) blows.resize(4);
+  const std::vector<Candidate> blows = of(all, FaultKind::collision, fit.joints(), 4);
   for (const double t : onsets_of(blows, common, 5)) bench.go({FaultKind::collision, fit.joints(), t});
   for (int joint = 1; joint <= fit.joints(); ++joint) {
-    std::vector<Candidate> drifts = of(all, FaultKind::sensor_drift, joint);
-    if (drifts.size() > 3) drifts.resize(3);
+    const std::vector<Candidate> drifts = of(all, FaultKind::sensor_drift, joint, 3);
     for (const Candidate& c : drifts) bench.go(c);
     // Sticking friction gives the likelihood many maxima over the size: it starts from that of the search.
-    FaultClaim drift = drifts.empty() ? FaultClaim{FaultKind::sensor_drift, joint} : drifts[0];
+    FaultClaim drift = drifts.empty() ? FaultClaim{FaultKind::sensor_drift, joint} : FaultClaim(drifts[0]);
     for (std::size_t k = 0; k < std::min(kOnsetsOfDrifts, common.size()); ++k) {
       drift.onset_s = common[k];
       bench.go(drift);
     }
     for (const Candidate& c : of(all, FaultKind::sensor_bias, joint)) bench.go(c);
     const std::vector<Candidate> locks = of(all, FaultKind::locked, joint);
-    for (const double t : onsets_of(locks, common, kOnsetsForAll)) bench.go({FaultKind::locked, joint, t});
+    for (const double t : onsets_of(locks, common, kOnsets)) bench.go({FaultKind::locked, joint, t});
     for (const Candidate& c : locks)
       if (c.end_s < kNeverEnds) bench.go(c);
     for (const Candidate& c : of(all, FaultKind::stuck_encoder, joint)) bench.go(c);
@@ -141,12 +143,30 @@ bool stands_out(double free_gain, std::vector<Candidate> found, double least_evi
   const double most = most_hidden_by_white_noise(fit.noise());
   const double hidden = std::max(least, kHidden * least_evidence);
   std::erase_if(found, [&](const Candidate& c) { return most * c.score < hidden; });
-  JudgedHypotheses bench{fit, {}};
-  bench.judged.reserve(found.size());
+  JudgedHypotheses bench{fit};
   return std::ranges::any_of(found, [&](const Candidate& c) {
-    const FaultHypothesis* h = bench.go(c);
-    return h != nullptr && h->gain > hidden;
+    const std::optional<FaultHypothesis> h = bench.go(c);
+    return h && h->gain > hidden;
   });
+}
+
+/// Returns the evidence of a fault from its onset on, by the whitened residuals without it and with it,
+/// beside the nats `at_onset` of other measurements. A row without weight counts as noise.
+EvidenceCourse course_of(const LogFit& fit, double onset_s, double at_onset, const Stacked& without,
+                         const Stacked& with) {
+  const double edge = reach_s(fit.model().setting);
+  EvidenceCourse out;
+  double sum = at_onset;
+  for (int k = 0; k < fit.count(); ++k) {
+    if (fit.time_s()[k] < onset_s - edge) continue;
+    for (int j = 0; j < fit.joints(); ++j) {
+      const double a = without[j * fit.count() + k], b = with[j * fit.count() + k];
+      sum += 0.5 * (a * a - (std::isnan(b) ? 1.0 : b * b));
+    }
+    out.time_s.push_back(std::max(fit.time_s()[k] + edge, onset_s));
+    out.nats.push_back(sum);
+  }
+  return out;
 }
 
 /// Returns the kinds that resemble a fault in the rows of its joint: they are judged at its onset and end. A
@@ -200,8 +220,7 @@ std::optional<NoiseBeside> quieter_noise(const LogFit& fit, const UniformLog& lo
 }  // namespace
 
 LogExplanation explain_log(const LogFit& fit, double least_evidence) {
-  JudgedHypotheses bench{fit, {}};
-  bench.judged.reserve(1024);
+  JudgedHypotheses bench{fit};
   LogExplanation out;
   out.free_form = free_form(fit);
   out.free_gain = gain_of(fit, out.free_form);
@@ -218,7 +237,7 @@ LogExplanation explain_log(const LogFit& fit, double least_evidence) {
     for (const FaultKind kind : rivals_of(out.best.front())) {
       FaultClaim rival = out.best.front();
       rival.kind = kind;
-      if (const FaultHypothesis* judged = bench.go(rival)) refine(FaultHypothesis(*judged), bench);
+      if (const std::optional<FaultHypothesis> judged = bench.go(rival)) refine(*judged, bench);
     }
     out.best = best_of_each(bench.judged);
   }
@@ -233,7 +252,7 @@ LogExplanation explain_log(const LogFit& fit, double least_evidence) {
     }
     out.best = best_of_each(bench.judged);
   }
-  return out;
+  return with_evidence(fit, std::move(out));
 }
 
 ExplainedFit explain_with_own_noise(const UniformLog& log, const BalanceModel& model,
@@ -282,21 +301,15 @@ double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& 
   return out;
 }
 
-EvidenceCourse evidence_course(const LogFit& fit, const FaultHypothesis& h) {
-  const Stacked without = fit.residual_without_fault(h.fit);
-  const double edge = reach_s(fit.model().setting);
-  EvidenceCourse out;
-  double sum = h.at_onset;
-  for (int k = 0; k < fit.count(); ++k) {
-    if (fit.time_s()[k] < h.onset_s - edge) continue;
-    for (int j = 0; j < fit.joints(); ++j) {
-      const double a = without[j * fit.count() + k], b = h.fit.left[j * fit.count() + k];
-      sum += 0.5 * (a * a - (std::isnan(b) ? 1.0 : b * b));
-    }
-    out.time_s.push_back(std::max(fit.time_s()[k] + edge, h.onset_s));
-    out.nats.push_back(sum);
+LogExplanation with_evidence(const LogFit& fit, LogExplanation e) {
+  for (FaultHypothesis& h : e.best) {
+    h.course = course_of(fit, h.onset_s, h.at_onset, fit.residual_without_fault(h.fit), h.fit.left);
+    h.misfit = misfit(fit, e.free_form, h);
   }
-  return out;
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const Stacked& left = e.free_form.left;
+  e.free_course = course_of(fit, e.free_form.onset_s, 0.0, left, Stacked::Constant(left.size(), kNaN));
+  return e;
 }
 
 }  // namespace faultline

@@ -4,7 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "lib/explain/evidence_course.hpp"
 #include "lib/explain/free_form.hpp"
 #include "lib/explain/hypothesis.hpp"
 
@@ -14,12 +13,18 @@ namespace faultline {
 struct LogExplanation {
   std::vector<FaultHypothesis> best;
   double healthy_square = 1.0;  ///< mean square of the whitened residuals of the healthy robot
+  // At coarse rates there is no free form: a hypothesis whose residuals are much larger than noise has an
+  // infinite misfit.
   FreeForm free_form;
   double free_gain = 0.0;  ///< nats by which the free form explains the log better than the healthy robot
+  EvidenceCourse free_course{};  ///< of the free form, from its onset on: excess of its residuals over noise
 };
 
 /// Explains a log. Judges no hypothesis if the search finds none that may give `least_evidence` (nats).
 LogExplanation explain_log(const LogFit& fit, double least_evidence = 0.0);
+
+/// Returns the explanation with misfit and course of its hypotheses, and the course of its free form.
+LogExplanation with_evidence(const LogFit& fit, LogExplanation explanation);
 
 /// A log with known faults, and its explanation.
 struct ExplainedFit {
@@ -36,8 +41,5 @@ ExplainedFit explain_with_own_noise(const UniformLog& log, const BalanceModel& m
 /// Returns the nats by which a free form explains the log better than a hypothesis. A share of the torque of
 /// the fault counts as noise, since no fault has exactly the form of its columns.
 double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& hypothesis);
-
-/// Returns the evidence of `hypothesis` from its onset on, with the effects of the day of the whole log.
-EvidenceCourse evidence_course(const LogFit& fit, const FaultHypothesis& hypothesis);
 
 }  // namespace faultline

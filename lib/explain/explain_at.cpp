@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "lib/explain/coarse/coarse_bench.hpp"
-#include "lib/explain/coarse/explain_coarse.hpp"
 #include "lib/explain/coarse/fault_directions.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
@@ -32,17 +31,9 @@ double jump_near(const LogFit& fit, int joint, double time_s) {
   return size;
 }
 
-std::optional<ExplainedFault> first_of(const LogExplanation& e, const EvidenceLimits& limits,
-                                       const LogEvidence& evidence) {
-  std::vector<ExplainedFault> named = named_faults(e, limits, evidence, 1);
-  if (named.empty()) return std::nullopt;
-  return std::move(named.front());
-}
-
 /// Judges every kind and joint at the times of a fault.
 LogExplanation judged_at(const LogFit& fit, const FaultTimes& at) {
-  JudgedHypotheses bench{fit, {}};
-  bench.judged.reserve(256);
+  JudgedHypotheses bench{fit};
   for (const LinearFault& fault : fit.linear())
     bench.go({fault.kind, fault.joint, at.onset_s, at.end_s, {}, fault.columns.grow});
   bench.go({FaultKind::collision, fit.joints(), at.onset_s,
@@ -58,24 +49,14 @@ LogExplanation judged_at(const LogFit& fit, const FaultTimes& at) {
   e.best = best_of_each(bench.judged);
   e.healthy_square = fit.healthy().mean_square();
   e.free_form = free_form(fit);
-  return e;
+  return with_evidence(fit, std::move(e));
 }
 
-std::optional<ExplainedFault> fine(const UniformLog& log, const BalanceModel& model,
-                                   const EvidenceLimits& limits, const FaultTimes& at) {
-  const auto [fit, e] =
-      explain_with_own_noise(log, model, {}, [&at](const LogFit& beside) { return judged_at(beside, at); });
-  return first_of(e, limits, log_evidence(fit, e));
-}
-
-std::optional<ExplainedFault> coarse(const UniformLog& uniform, const OneStepModel& model,
-                                     const EvidenceLimits& limits, const FaultTimes& at) {
-  const std::optional<CoarseLog> followed = followed_log(uniform, model);
-  if (!followed) return std::nullopt;
-  const CoarseLog& log = *followed;
+/// Judges them likewise at a coarse rate.
+LogExplanation judged_at(const CoarseLog& log, const FaultTimes& at) {
   CoarseBench bench(log);
   const double lasts_s = at.end_s < kNeverEnds ? at.end_s - at.onset_s : 0.0;
-  for (const FaultLabel& label : fault_labels_of(model)) {
+  for (const FaultLabel& label : fault_labels_of(*log.model)) {
     if (label.kind == FaultKind::free_swinging) continue;
     const bool begins_with_sample =
         label.kind == FaultKind::stuck_encoder || label.kind == FaultKind::sensor_bias;
@@ -85,20 +66,26 @@ std::optional<ExplainedFault> coarse(const UniformLog& uniform, const OneStepMod
              1);
   }
   bench.integrate_best();
-  LogExplanation e;
-  e.best = bench.ranked();
-  e.healthy_square = log.healthy.mean_square();
-  return first_of(e, limits, coarse_evidence(log, e));
+  return bench.explanation();
 }
 
 }  // namespace
 
 std::optional<ExplainedFault> explain_at(const UniformLog& log, const ExplainModel& model, double onset_s,
                                          double end_s) {
-  if (const auto* steps = std::get_if<OneStepModel>(&model.robot))
-    return coarse(log, *steps, model.limits, times_of(log, onset_s, end_s));
-  const UniformLog means = averaged_as(log, model.robot);
-  return fine(means, std::get<BalanceModel>(model.robot), model.limits, times_of(means, onset_s, end_s));
+  LogExplanation e;
+  if (const auto* steps = std::get_if<OneStepModel>(&model.robot)) {
+    const std::optional<CoarseLog> followed = followed_log(log, *steps);
+    if (followed) e = judged_at(*followed, times_of(log, onset_s, end_s));
+  } else {
+    const UniformLog means = averaged_as(log, model.robot);
+    e = explain_with_own_noise(means, std::get<BalanceModel>(model.robot), {}, [&](const LogFit& fit) {
+          return judged_at(fit, times_of(means, onset_s, end_s));
+        }).explanation;
+  }
+  std::vector<ExplainedFault> named = named_faults(e, model.limits, 1);
+  if (named.empty()) return std::nullopt;
+  return std::move(named.front());
 }
 
 }  // namespace faultline

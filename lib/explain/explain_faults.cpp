@@ -10,6 +10,7 @@
 #include "lib/explain/fault_spans.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
+#include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
 namespace {
@@ -22,7 +23,13 @@ constexpr double kAsOne_s = 1.0;          // s between two onsets at one joint t
 constexpr double kFirstShare = 0.3;       // share of the best evidence that each of these has, at least
 constexpr double kAlike = 0.4;            // least ratio of the sizes of two jumps of a belt that slips
 constexpr double kPriceOfRipple = 20.0;   // nats: of its rate, sine and cosine
-constexpr double kOppositeWithin = 0.3;   // share of a false reading's size by which its opposite may differ
+
+/// A log, the model that explains it and the limits for its faults.
+struct GivenLog {
+  const UniformLog& log;
+  const BalanceModel& model;
+  const EvidenceLimits& limits;
+};
 
 /// One step of the explanation: the faults that best explain the residuals of the known ones, best first.
 struct NextFault {
@@ -88,18 +95,16 @@ bool is_too_weak(const ExplainedFault& fault, const EvidenceLimits& limits, cons
   return is_first && fault.evidence <= left * limits.of(fault.claim.kind);
 }
 
-NextFault next_fault(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
-                     const std::vector<FaultClaim>& known) {
+NextFault next_fault(const GivenLog& given, const std::vector<FaultClaim>& known) {
+  const EvidenceLimits& limits = given.limits;
   // The halt of a known lock raises the noise of the other joints and makes the search less exact.
   const bool is_exact = std::ranges::none_of(known, &silences, &FaultClaim::kind);
   const double least = is_exact ? least_limit(limits) : 0.0;
   const ExplainedFit explained = explain_with_own_noise(
-      log, model, known, [least](const LogFit& beside) { return explain_log(beside, least); });
+      given.log, given.model, known, [least](const LogFit& beside) { return explain_log(beside, least); });
   const LogFit& fit = explained.fit;
   const LogExplanation& e = explained.explanation;
-  const LogEvidence evidence = log_evidence(fit, e);
-  std::vector<ExplainedFault> named =
-      named_faults(e, scaled(limits, residual_of_known(fit)), evidence, kFirsts);
+  std::vector<ExplainedFault> named = named_faults(e, scaled(limits, residual_of_known(fit)), kFirsts);
   std::erase_if(named, [&](const ExplainedFault& fault) {
     return is_too_weak(fault, limits, fit) || std::ranges::any_of(known, [&](const FaultClaim& claim) {
              return begin_as_one(claim, fault.claim);
@@ -109,14 +114,14 @@ NextFault next_fault(const UniformLog& log, const BalanceModel& model, const Evi
   for (const ExplainedFault& fault : out.named)
     out.spans.push_back(fault_spans(fit, fault.claim, e.free_form));
   if (out.named.empty() && known.empty())
-    if (const std::optional<ExplainedFault> unnamed = unnamed_fault(e, limits, evidence)) {
+    if (const std::optional<ExplainedFault> unnamed = unnamed_fault(e, limits)) {
       out.named = {*unnamed};
       out.spans = {{}};
       out.unknown = *unnamed;
       return out;
     }
   if (!out.named.empty())
-    out.unknown = as_unknown(out.named.front(), e, evidence);
+    out.unknown = as_unknown(out.named.front(), e);
   else
     out.rest = {.day = effects_of(fit), .loudness = noise_levels(fit), .judged_s = judged_s(fit)};
   return out;
@@ -142,25 +147,22 @@ bool may_replace(const ExplainedFault& again, const ExplainedFault& before) {
 }
 
 /// Judges each fault again with all others known, in order, and drops it if they explain the log without it.
-std::vector<ExplainedFault> judged_beside(const UniformLog& log, const BalanceModel& model,
-                                          const EvidenceLimits& limits, const std::vector<FaultClaim>& before,
+std::vector<ExplainedFault> judged_beside(const GivenLog& given, const std::vector<FaultClaim>& before,
                                           const RowNoise& noise, Times times,
                                           std::vector<ExplainedFault> faults) {
   for (std::size_t k = 0; k < faults.size();) {
-    const LogFit fit(log, model, claims_but(faults, k, before), noise);
+    const LogFit fit(given.log, given.model, claims_but(faults, k, before), noise);
     LogExplanation e = explain_log(fit);
-    JudgedHypotheses own{fit, {}};
-    double gain = 0.0;
-    if (const FaultHypothesis* first = own.go(faults[k].claim)) {
-      gain = first->gain;
-      if (times == Times::refined) refine(FaultHypothesis(*first), own);
-    }
+    JudgedHypotheses own{fit};
+    const std::optional<FaultHypothesis> first = own.go(faults[k].claim);
+    if (first && times == Times::refined) refine(*first, own);
+    const double gain = first ? first->gain : 0.0;
     e.best.insert(e.best.end(), own.judged.begin(), own.judged.end());
     e.best = best_of_each(e.best);
-    const std::vector<ExplainedFault> again = named_faults(e, limits, log_evidence(fit, e), 1);
+    const std::vector<ExplainedFault> again = named_faults(with_evidence(fit, std::move(e)), given.limits, 1);
     if (!again.empty() && may_replace(again[0], faults[k])) {
       faults[k] = again[0];
-    } else if (gain <= limits.of(faults[k].claim.kind)) {
+    } else if (gain <= given.limits.of(faults[k].claim.kind)) {
       faults.erase(faults.begin() + static_cast<std::ptrdiff_t>(k));
       k = 0;  // faults that were judged beside it are judged without it
       continue;
@@ -173,21 +175,19 @@ std::vector<ExplainedFault> judged_beside(const UniformLog& log, const BalanceMo
 /// Judges each fault again with all others known, the weakest first, and drops it if they explain the log
 /// without it. A fault that leaves much beside another one's first onset and end is judged once more beside
 /// their estimates. `before` are known and stay.
-std::vector<ExplainedFault> jointly(const UniformLog& log, const BalanceModel& model,
-                                    const EvidenceLimits& limits, const std::vector<FaultClaim>& before,
+std::vector<ExplainedFault> jointly(const GivenLog& given, const std::vector<FaultClaim>& before,
                                     std::vector<ExplainedFault> faults) {
   std::ranges::stable_sort(faults, {}, &ExplainedFault::evidence);
-  const RowNoise noise = LogFit(log, model, claims_but(faults, faults.size(), before)).noise();
-  faults = judged_beside(log, model, limits, before, noise, Times::as_claimed, std::move(faults));
+  const RowNoise noise = LogFit(given.log, given.model, claims_but(faults, faults.size(), before)).noise();
+  faults = judged_beside(given, before, noise, Times::as_claimed, std::move(faults));
   const auto poor = std::ranges::count_if(faults, &has_large_misfit);
   if (poor == 0 || poor == static_cast<std::ptrdiff_t>(faults.size())) return faults;
-  return judged_beside(log, model, limits, before, noise, Times::refined, std::move(faults));
+  return judged_beside(given, before, noise, Times::refined, std::move(faults));
 }
 
 /// Returns the first of the `most` best named faults that comes and goes and explains the log by this: as a
 /// fault in each of its spans, judged beside each other. Empty if none does.
-std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceModel& model,
-                                           const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
+std::vector<ExplainedFault> repeated_fault(const GivenLog& given, const std::vector<FaultClaim>& known,
                                            const NextFault& next, std::size_t most) {
   for (std::size_t k = 0; k < most; ++k) {
     if (next.spans[k].size() < 2 || next.spans[k].size() > kMostFaults) continue;
@@ -197,7 +197,7 @@ std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceM
       out.back().claim = span;
       out.back().misfit = std::numeric_limits<double>::infinity();  // until it is judged
     }
-    out = jointly(log, model, limits, known, std::move(out));
+    out = jointly(given, known, std::move(out));
     if (out.size() > 1 && std::ranges::none_of(out, &has_large_misfit)) return out;
   }
   return {};
@@ -205,14 +205,13 @@ std::vector<ExplainedFault> repeated_fault(const UniformLog& log, const BalanceM
 
 /// Returns the fault that best explains the residuals; or several that explain them together, if one alone
 /// leaves much; or a fault of no known kind, if these leave much, too.
-std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceModel& model,
-                                        const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
+std::vector<ExplainedFault> best_faults(const GivenLog& given, const std::vector<FaultClaim>& known,
                                         const NextFault& next) {
   const ExplainedFault& alone = next.named.front();
   // A drive that clips is no known kind: several known faults that explain the log are preferred to it.
   const bool is_enough = suffices(alone) && alone.claim.kind != FaultKind::unknown;
   std::vector<ExplainedFault> repeated =
-      repeated_fault(log, model, limits, known, next, is_enough ? 1 : next.named.size());
+      repeated_fault(given, known, next, is_enough ? 1 : next.named.size());
   if (!repeated.empty()) return repeated;
   if (is_enough) return {alone};
   for (const ExplainedFault& first : next.named) {
@@ -221,10 +220,10 @@ std::vector<ExplainedFault> best_faults(const UniformLog& log, const BalanceMode
     std::vector<ExplainedFault> together = {first};
     while (together.size() < kMostTogether) {
       more.push_back(together.back().claim);
-      const NextFault another = next_fault(log, model, limits, more);
+      const NextFault another = next_fault(given, more);
       if (another.named.empty()) break;
       // Beside a part of a fault that comes and goes the other parts are easier to find.
-      repeated = repeated_fault(log, model, limits, known, another, another.named.size());
+      repeated = repeated_fault(given, known, another, another.named.size());
       if (!repeated.empty()) return repeated;
       together.push_back(another.named.front());
       if (together.back().claim.kind == FaultKind::unknown) break;
@@ -242,7 +241,7 @@ std::vector<ExplainedFault> unnested(std::vector<ExplainedFault> faults) {
       FaultClaim &a = outer.claim, &b = inner.claim;
       if (a.kind != FaultKind::sensor_bias || b.kind != a.kind || a.joint != b.joint) continue;
       if (a.onset_s >= b.onset_s || a.end_s <= b.end_s) continue;
-      if (std::abs(a.size[0] + b.size[0]) > kOppositeWithin * std::abs(a.size[0])) continue;
+      if (!takes_back(b.size[0], a.size[0])) continue;
       const double end_s = a.end_s;
       a.end_s = b.onset_s;
       b = {a.kind, a.joint, b.end_s, end_s, a.size};
@@ -271,22 +270,20 @@ std::vector<ExplainedFault> without_slips(std::vector<ExplainedFault> faults) {
 }
 
 /// Explains the log beside the known faults `before`.
-ExplainedLog explained_beside(const UniformLog& log, const BalanceModel& model, const EvidenceLimits& limits,
-                              const std::vector<FaultClaim>& before) {
+ExplainedLog explained_beside(const GivenLog& given, const std::vector<FaultClaim>& before) {
   ExplainedLog out;
   std::vector<ExplainedFault> faults;
   while (faults.size() < kMostFaults) {
     const std::vector<FaultClaim> known = claims_but(faults, faults.size(), before);
-    NextFault next = next_fault(log, model, limits, known);
+    NextFault next = next_fault(given, known);
     out = std::move(next.rest);
     if (next.named.empty()) break;
-    for (ExplainedFault& fault : best_faults(log, model, limits, known, next))
-      faults.push_back(std::move(fault));
+    for (ExplainedFault& fault : best_faults(given, known, next)) faults.push_back(std::move(fault));
   }
-  if (faults.size() > 1) faults = jointly(log, model, limits, before, std::move(faults));
+  if (faults.size() > 1) faults = jointly(given, before, std::move(faults));
   faults = unnested(std::move(faults));
   std::ranges::stable_sort(faults, {}, [](const ExplainedFault& fault) { return fault.claim.onset_s; });
-  out.faults = without_worn_spots(log, model, before, without_slips(std::move(faults)));
+  out.faults = without_worn_spots(given.log, given.model, before, without_slips(std::move(faults)));
   return out;
 }
 
@@ -312,15 +309,14 @@ std::vector<FaultClaim> apart_from(const std::vector<SignalStretch>& stretches,
 
 /// Explains a log with stretches of other signals. `alone` is what the torque balance shows without them. The
 /// stretches are judged twice: beside the faults of `alone`, then beside those that are found beside them.
-ExplainedLog explained_with_signals(const UniformLog& log, const BalanceModel& model,
-                                    const EvidenceLimits& limits, const std::vector<FaultClaim>& known,
+ExplainedLog explained_with_signals(const GivenLog& given, const std::vector<FaultClaim>& known,
                                     const SignalStretches& signals, const ExplainedLog& alone) {
   ExplainedLog out = alone;
   for (int round = 0; round < kStretchRounds; ++round) {
-    const LogFit fit(log, model, joined(known, apart_from(signals.begin, out.faults)));
+    const LogFit fit(given.log, given.model, joined(known, apart_from(signals.begin, out.faults)));
     std::vector<JudgedStretch> stretches = judged_stretches(signals.begin, alone.faults, known, &fit);
     const std::vector<FaultClaim> shown = balance_claims(stretches);
-    out = shown.empty() ? alone : explained_beside(log, model, limits, joined(known, shown));
+    out = shown.empty() ? alone : explained_beside(given, joined(known, shown));
     out.stretches = std::move(stretches);
     if (shown.empty() || out.faults.empty()) return out;
   }
@@ -346,8 +342,9 @@ ExplainedLog explain_faults(const UniformLog& log, const BalanceModel& model, co
                             const std::vector<FaultClaim>& lasting, const SignalStretches& signals) {
   const std::vector<FaultClaim> before = followed(log, model, lasting), known = joined(before, signals.known);
   const auto explained = [&](const BalanceModel& day) {
-    ExplainedLog out = explained_beside(log, day, limits, known);
-    if (!signals.begin.empty()) out = explained_with_signals(log, day, limits, known, signals, out);
+    const GivenLog given{log, day, limits};
+    ExplainedLog out = explained_beside(given, known);
+    if (!signals.begin.empty()) out = explained_with_signals(given, known, signals, out);
     return out;
   };
   ExplainedLog out = explained(model);

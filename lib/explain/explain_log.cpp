@@ -19,11 +19,12 @@ constexpr int kAtTheStart = 2;       // samples after the earliest onset: a faul
 /// Returns by joint the root mean square of the whitened residuals of the healthy robot.
 std::vector<double> noise_levels(const CoarseLog& log) {
   const int n = log.joints();
+  const Eigen::MatrixXd left =
+      Eigen::Map<const Eigen::MatrixXd>(log.healthy.left.data(), 2 * n, log.samples());
   std::vector<double> out;
   for (int j = 0; j < n; ++j)
     out.push_back(
-        std::sqrt((log.healthy.left.row(j).squaredNorm() + log.healthy.left.row(n + j).squaredNorm()) /
-                  (2.0 * log.samples())));
+        std::sqrt((left.row(j).squaredNorm() + left.row(n + j).squaredNorm()) / (2.0 * log.samples())));
   return out;
 }
 
@@ -49,7 +50,7 @@ ExplainedLog explained_coarse(const CoarseLog& log, const EvidenceLimits& limits
   if (is_divergent(log, e))
     if (const std::optional<CoarseLog> before = settled_part(log))
       if (ExplainedLog out = explained_coarse(*before, limits); !out.faults.empty()) return out;
-  std::optional<ExplainedFault> fault = decide_log(e, limits, coarse_evidence(log, e));
+  std::optional<ExplainedFault> fault = decide_log(e, limits);
   ExplainedLog out;
   out.judged_s =
       log.period_s() * static_cast<double>(std::count(log.log.lost.begin(), log.log.lost.end(), false));

@@ -2,7 +2,6 @@
 // The part of judge.hpp for false positions.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
@@ -38,7 +37,6 @@ FaultHypothesis judge_position_error(const LogFit& fit, FaultClaim claim) {
   const bool bias = claim.kind == FaultKind::sensor_bias;
   const auto [usual, step] = position_error_size(fit, claim);
   FaultHypothesis best;
-  best.gain = -std::numeric_limits<double>::infinity();
   double size = claim.size.size() > 0 ? claim.size[0] : 0.0;
   // A drift of size zero changes nothing; a jump of size zero still replaces velocities that are computed
   // from the position.

@@ -2,9 +2,7 @@
 #include "lib/explain/free_form.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "lib/balance/regress.hpp"
@@ -49,18 +47,12 @@ Stacked rows_to_explain(const LogFit& fit) {
   return white;
 }
 
-/// Sums of the rows of one joint and of the effects that reach them: they give the cost of effects.
-struct JointRows {
-  std::vector<int> reach{};  ///< indices of the effects
-  NormalEquations sums{};    ///< of those effects
-};
-
-/// Returns the sums of the joints before any row is added.
-std::vector<JointRows> no_rows(const EffectColumns& effects) {
-  std::vector<JointRows> out;
+/// Returns, by joint, the sums of the effects that reach it, before any row is added.
+std::vector<NormalEquations> no_rows(const EffectColumns& effects) {
+  std::vector<NormalEquations> out;
   for (int j = 0; j < effects.joints(); ++j) {
     const Eigen::Index count = effects.column(j).cols();
-    out.push_back({effects.reach(j), {MatrixXd::Zero(count, count), VectorXd::Zero(count)}});
+    out.push_back({MatrixXd::Zero(count, count), VectorXd::Zero(count)});
   }
   return out;
 }
@@ -74,23 +66,21 @@ void add_row(const Eigen::Ref<const VectorXd>& some, double white, NormalEquatio
 }
 
 /// Returns the sum of squared residuals of the rows with these effects of the day.
-double squared_residual(const JointRows& joint, const VectorXd& day) {
-  const VectorXd some = day(joint.reach);
-  return joint.sums.square - 2.0 * some.dot(joint.sums.vector) + some.dot(joint.sums.matrix * some);
+double squared_residual(const NormalEquations& sums, const VectorXd& day) {
+  return sums.square - 2.0 * day.dot(sums.vector) + day.dot(sums.matrix * day);
 }
 
-/// Nats of the rows of a joint if the change does not reach it, and if it does. The variance of its rows is
-/// estimated from those before the change, and at least 1, that of the healthy logs.
-struct CostOfJoint {
-  double explained = 0.0, free = 0.0;
-};
-
-CostOfJoint cost_of_joint(const JointRows& all, const JointRows& before, const VectorXd& day) {
-  const double seen = before.sums.rows, rest = all.sums.rows - seen, square = squared_residual(before, day),
+/// Returns the nats of the rows of a joint, by the sums of all of them and of those before the change: as the
+/// change does not reach it, or as it does, whichever is less. `day` are the effects that reach the joint.
+/// The variance of its rows is estimated from those before the change, and at least 1, that of the healthy
+/// logs.
+double cost_of_joint(const NormalEquations& all, const NormalEquations& before, const VectorXd& day) {
+  const double seen = before.rows, rest = all.rows - seen, square = squared_residual(before, day),
                variance = std::max(1.0, (kRowsOfHealthyLogs + square) / (kRowsOfHealthyLogs + seen)),
-               row = 0.5 * elementary::log(variance), costs_before = seen * row + 0.5 * square / variance;
-  return {costs_before + rest * row + 0.5 * (squared_residual(all, day) - square) / variance,
-          costs_before + rest * (row + kFreeRowCost)};
+               row = 0.5 * elementary::log(variance), costs_before = seen * row + 0.5 * square / variance,
+               explained = costs_before + rest * row + 0.5 * (squared_residual(all, day) - square) / variance,
+               free = costs_before + rest * (row + kFreeRowCost);
+  return std::min(free, explained);
 }
 
 /// Joints whose rows a change may free.
@@ -100,33 +90,32 @@ enum class ChangeOf { all_joints, some_joints };
 /// joints whose rows would cost more if they were explained as before it.
 Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
   const int rows = fit.count(), n = fit.joints();
+  const EffectColumns& white_effects = fit.white_effects();
   std::vector<MatrixXd> effects;  // by joint, reach x rows
-  for (int j = 0; j < n; ++j) effects.emplace_back(fit.white_effects().column(j).transpose());
+  for (int j = 0; j < n; ++j) effects.emplace_back(white_effects.column(j).transpose());
   const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
   const auto counts = [&](int k) { return changes.empty() || !changes[k]; };
   const VectorXd precision = fit.effect_variance().cwiseInverse();
-  std::vector<JointRows> all = no_rows(fit.white_effects()), before = all;
+  std::vector<NormalEquations> all = no_rows(white_effects), before = all;
   RecursiveRegression day(precision);
   if (of == ChangeOf::some_joints)
     for (int k = 0; k < rows; ++k)
-      for (int j = 0; j < n && counts(k); ++j) add_row(effects[j].col(k), white[j * rows + k], all[j].sums);
-  const int first = std::max(6, static_cast<int>(kLead_s / fit.model().setting.row_s()));
+      for (int j = 0; j < n && counts(k); ++j) add_row(effects[j].col(k), white[j * rows + k], all[j]);
+  const int first = first_onset_row(fit);
   double least = std::numeric_limits<double>::infinity();
   Change best{first, 0.0, VectorXd::Zero(precision.size())};
   for (int k = 0; k + kTail < rows; ++k) {
     for (int j = 0; j < n && counts(k); ++j) {
       const int row = j * rows + k;
-      day.add(effects[j].col(k), before[j].reach, white[row]);
-      if (of == ChangeOf::some_joints) add_row(effects[j].col(k), white[row], before[j].sums);
+      day.add(effects[j].col(k), white_effects.reach(j), white[row]);
+      if (of == ChangeOf::some_joints) add_row(effects[j].col(k), white[row], before[j]);
     }
     if (k < first) continue;
     double cost = 0.5 * day.square() + kFreeRowCost * n * (rows - 1 - k);
     if (of == ChangeOf::some_joints) {
       cost = 0.5 * precision.dot(day.estimate().cwiseAbs2());
-      for (int j = 0; j < n; ++j) {
-        const CostOfJoint joint = cost_of_joint(all[j], before[j], day.estimate());
-        cost += std::min(joint.free, joint.explained);
-      }
+      for (int j = 0; j < n; ++j)
+        cost += cost_of_joint(all[j], before[j], day.estimate()(white_effects.reach(j)));
     }
     if (cost >= least) continue;
     least = cost;
@@ -170,22 +159,6 @@ FreeForm free_form(const LogFit& fit) {
   out.left = white - fit.white_effects().times(change.day);
   out.end_s = explained_again_s(fit, out.left, change);
   out.row_cost = row_costs(fit, out);
-  return out;
-}
-
-EvidenceCourse evidence_course(const LogFit& fit, const FreeForm& change) {
-  const double edge = reach_s(fit.model().setting);
-  EvidenceCourse out;
-  double sum = 0.0;
-  for (int k = 0; k < fit.count(); ++k) {
-    if (fit.time_s()[k] < change.onset_s - edge) continue;
-    for (int j = 0; j < fit.joints(); ++j) {
-      const double z = change.left[j * fit.count() + k];
-      sum += 0.5 * z * z - 0.5;
-    }
-    out.time_s.push_back(std::max(fit.time_s()[k] + edge, change.onset_s));
-    out.nats.push_back(sum);
-  }
   return out;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "lib/explain/evidence_course.hpp"
 #include "lib/explain/log_fit.hpp"
 
 namespace faultline {
@@ -39,8 +38,5 @@ struct FreeForm {
 /// slightly: a fault of no known kind needs more evidence than the exclusion of rows from the noise of the
 /// log. The effects of the day are those of the rows before.
 FreeForm free_form(const LogFit& fit);
-
-/// Returns the evidence of a free form from its onset on: excess of the squared residuals over noise.
-EvidenceCourse evidence_course(const LogFit& fit, const FreeForm& change);
 
 }  // namespace faultline

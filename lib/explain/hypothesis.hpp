@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/evidence_course.hpp"
 #include "lib/explain/log_fit.hpp"
 #include "lib/fault/fault_kind.hpp"
 
@@ -33,10 +35,15 @@ inline constexpr double kMayWin = 0.3;         ///< share of the best evidence b
 
 /// A fault that may explain a log, judged exactly (equation (6) of docs/how-it-works.md).
 struct FaultHypothesis : FaultClaim {
-  double gain = 0.0;  ///< nats by which it explains the log better than the known faults alone
+  /// Nats by which it explains the log better than the known faults alone.
+  double gain = -std::numeric_limits<double>::infinity();
   /// Part of `gain` that comes from the measurements at the onset, not from the torque-balance rows.
   double at_onset = 0.0;
   Explanation fit{};
+
+  // Of the best hypothesis of each kind and joint alone.
+  EvidenceCourse course{};  ///< from the onset on
+  double misfit = 0.0;      ///< nats by which a free form explains the log better
 };
 
 inline constexpr double kUsualBlow_s = 0.05;   ///< median of the length of a collision

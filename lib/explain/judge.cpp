@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
@@ -69,13 +68,12 @@ Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
   const UniformLog& log = fit.log();
   const int j = claim.joint - 1;
   const int first = log.first_row(claim.onset_s), end = log.first_row(claim.end_s);
-  int same = 0, all = 0;
-  for (int k = first + 3; k < end; ++k, ++all) same += log.q(k, j) == log.q(k - 1, j);
-  int before = 0;
-  const int from = std::max(1, first - kSamplesBefore);
-  for (int k = from; k < first; ++k) before += log.q(k, j) == log.q(k - 1, j);
-  return {end - first, all > 2 ? static_cast<double>(same) / all : 0.0,
-          first > from ? static_cast<double>(before) / (first - from) : 1.0};
+  const int within = first + 3, before = std::max(1, first - kSamplesBefore);
+  const auto share = [&](int from, int to) {
+    return static_cast<double>(repeats(log, j, from, to)) / (to - from);
+  };
+  return {end - first, end - within > 2 ? share(within, end) : 0.0,
+          first > before ? share(before, first) : 1.0};
 }
 
 /// Returns whether the measured velocity of a joint changes by its noise from onset to end and shows rest: a
@@ -250,7 +248,6 @@ FaultHypothesis judge_force(const LogFit& fit, FaultClaim claim) {
 FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
   if (claim.end_s < kNeverEnds) return judge_force(fit, claim);
   FaultHypothesis best;
-  best.gain = -std::numeric_limits<double>::infinity();
   for (const double duration : {.03, .06, .12, .25, .5, 1.0}) {
     claim.end_s = claim.onset_s + duration;
     FaultHypothesis h = judge_force(fit, claim);
@@ -266,7 +263,6 @@ FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim) {
   const int j = claim.joint - 1;
   const VectorXd torque = fit.rows().torque.col(j);
   FaultHypothesis best;
-  best.gain = -std::numeric_limits<double>::infinity();
   double most = 0.0, best_level = 0.0;
   for (int k = 0; k < fit.count(); ++k)
     if (fit.time_s()[k] > claim.onset_s && fit.time_s()[k] < claim.end_s)

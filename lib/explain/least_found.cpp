@@ -56,10 +56,9 @@ SizeKnowledge knowledge(const LogFit& fit, const FaultClaim& claim) {
 }
 
 SizeKnowledge knowledge(const CoarseLog& log, const FaultClaim& claim) {
-  const CoarseGuess guess{claim.kind, claim.joint, claim.onset_s,
-                          claim.end_s < kNeverEnds ? claim.end_s - claim.onset_s : 0.0};
-  const VectorXd std = prior_of_sizes(*log.model, claim.kind, claim.joint);
-  return {judge_coarse(log, guess, {}).size_covariance, std.cwiseAbs2()};
+  const std::optional<CoarseExplanation> e = judge_coarse(log, guess_of(claim), {});
+  if (!e) return {};
+  return {e->size_covariance, prior_of_sizes(*log.model, claim.kind, claim.joint).cwiseAbs2()};
 }
 
 template <typename Fitted>

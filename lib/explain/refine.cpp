@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "lib/explain/fault_spans.hpp"
 #include "lib/explain/judge.hpp"
@@ -36,8 +35,7 @@ bool can_move(FaultKind kind) { return kind != FaultKind::stuck_encoder && kind 
 FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypotheses& bench) {
   const LogFit& fit = bench.fit;
   const double row_s = fit.model().setting.row_s();
-  const int first = std::max(6, static_cast<int>(kLead_s / row_s));
-  const double earliest = fit.time_s()[std::min(first, fit.count() - 1)],
+  const double earliest = fit.time_s()[std::min(first_onset_row(fit), fit.count() - 1)],
                latest = fit.time_s()[std::max(0, fit.count() - 3)];
   const bool passes = best.kind == FaultKind::collision;
   const double shortest = passes ? row_s : kLeastStay_s, longest = passes ? kLongestBlow_s : kNeverEnds;
@@ -46,9 +44,9 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
     claim.*when = t;
     const double lasts_s = claim.end_s - claim.onset_s;
     if (t < earliest || t >= latest || lasts_s < shortest || lasts_s > longest) return false;
-    const FaultHypothesis* h = bench.go(claim);
-    if (h == nullptr || h->gain <= best.gain + kLeastGain) return false;
-    best = *h;
+    std::optional<FaultHypothesis> h = bench.go(claim);
+    if (!h || h->gain <= best.gain + kLeastGain) return false;
+    best = std::move(*h);
     return true;
   };
   const double at = best.*when;
@@ -75,8 +73,8 @@ void add_end(const FaultHypothesis& h, JudgedHypotheses& bench) {
   if (!end_s) return;
   FaultClaim claim = h;
   claim.end_s = *end_s;
-  const FaultHypothesis* ends = bench.go(claim);
-  if (ends == nullptr) return;
+  const std::optional<FaultHypothesis> ends = bench.go(claim);
+  if (!ends) return;
   const FaultHypothesis best = can_move(h.kind) ? moved(*ends, &FaultClaim::end_s, bench) : *ends;
   if (best.gain < kStillEnough * h.gain) return;
   std::erase_if(bench.judged, [&](const FaultHypothesis& other) {
@@ -87,14 +85,13 @@ void add_end(const FaultHypothesis& h, JudgedHypotheses& bench) {
 
 }  // namespace
 
-const FaultHypothesis* JudgedHypotheses::go(const FaultClaim& claim) {
+std::optional<FaultHypothesis> JudgedHypotheses::go(const FaultClaim& claim) {
   for (const double later_s : {0.0, kLeastFault_s})
-    if (fit.is_silent(claim.joint, claim.onset_s + later_s)) return nullptr;
-  if (is_known(fit, claim)) return nullptr;
+    if (fit.is_silent(claim.joint, claim.onset_s + later_s)) return std::nullopt;
+  if (is_known(fit, claim)) return std::nullopt;
   std::optional<FaultHypothesis> h = judge(fit, claim);
-  if (!h) return nullptr;
-  judged.push_back(std::move(*h));
-  return &judged.back();
+  if (h) judged.push_back(*h);
+  return h;
 }
 
 std::vector<FaultHypothesis> best_of_each(const std::vector<FaultHypothesis>& all) {

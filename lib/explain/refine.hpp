@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lib/explain/hypothesis.hpp"
@@ -12,10 +13,10 @@ inline constexpr double kSameOnset_s = 0.08;  ///< between two onsets that count
 /// Judges hypotheses of one log and keeps them all.
 struct JudgedHypotheses {
   const LogFit& fit;
-  std::vector<FaultHypothesis> judged;
+  std::vector<FaultHypothesis> judged{};
 
-  /// Judges a claim. Null if it cannot be judged, or if a known fault silences its joint or is the same.
-  const FaultHypothesis* go(const FaultClaim& claim);
+  /// Judges a claim. Empty if it cannot be judged, or if a known fault silences its joint or is the same.
+  std::optional<FaultHypothesis> go(const FaultClaim& claim);
 };
 
 /// Returns the best of each kind and joint, best first.

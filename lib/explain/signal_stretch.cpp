@@ -11,14 +11,13 @@
 namespace faultline {
 namespace {
 
-constexpr double kAnyForm = 0.5;          // price of any form, as a share of what it alone explains
-constexpr double kSensorStays_s = 1.0;    // shortest duration of an error of a sensor
-constexpr double kLongAnswer_s = 1.0;     // a longer stretch of a law after a fault is a response to it
-constexpr double kAlikeLosses = 0.7;      // least ratio of two shares that may be one loss
-constexpr double kQuietCommand_s = 1.0;   // between two stretches of one loss, if no torque balance shows it
-constexpr double kNear_s = 0.3;           // between times by the signals and by the torque balance
-constexpr std::size_t kMostJudged = 256;  // hypotheses that one refinement judges, at most
-constexpr double kAtOnce_s = 0.1;         // between two onsets, or an end and an onset, that may be one
+constexpr double kAnyForm = 0.5;         // price of any form, as a share of what it alone explains
+constexpr double kSensorStays_s = 1.0;   // shortest duration of an error of a sensor
+constexpr double kLongAnswer_s = 1.0;    // a longer stretch of a law after a fault is a response to it
+constexpr double kAlikeLosses = 0.7;     // least ratio of two shares that may be one loss
+constexpr double kQuietCommand_s = 1.0;  // between two stretches of one loss, if no torque balance shows it
+constexpr double kNear_s = 0.3;          // between times by the signals and by the torque balance
+constexpr double kAtOnce_s = 0.1;        // between two onsets, or an end and an onset, that may be one
 
 /// A hypothesis of a stretch.
 struct StretchScore {
@@ -62,10 +61,9 @@ bool is_loss(const FaultClaim& claim) { return column_kind(claim.kind) == FaultK
 /// Judges a loss whose onset and end are near those of a claim, where the torque balance explains most; empty
 /// if it cannot judge it.
 std::optional<FaultHypothesis> best_times(const LogFit& fit, const FaultClaim& claim) {
-  JudgedHypotheses bench{fit, {}};
-  bench.judged.reserve(kMostJudged);
-  const FaultHypothesis* first = bench.go(claim);
-  if (first == nullptr) return std::nullopt;
+  JudgedHypotheses bench{fit};
+  const std::optional<FaultHypothesis> first = bench.go(claim);
+  if (!first) return std::nullopt;
   refine(*first, bench);
   std::optional<FaultHypothesis> out;
   for (const FaultHypothesis& each : bench.judged) {

@@ -27,8 +27,7 @@ using testing::scara_model;
 using testing::simulate_closed_form;
 
 std::optional<ExplainedFault> decided(const LogFit& fit) {
-  const LogExplanation e = explain_log(fit);
-  return decide_log(e, evidence_limits({}), log_evidence(fit, e));
+  return decide_log(explain_log(fit), evidence_limits({}));
 }
 
 EvidenceLimits limits() { return evidence_limits({}); }
@@ -96,7 +95,7 @@ TEST(ExplainLog, AHealthyDayGivesNoEvidence) {
   const LogExplanation e = explain_log(fit);
   for (const FaultHypothesis& h : e.best) EXPECT_LT(h.gain, 20.0) << to_string(h.kind);
   EXPECT_LT(e.healthy_square, 1.5);
-  EXPECT_FALSE(decide_log(e, limits(), log_evidence(fit, e)));
+  EXPECT_FALSE(decide_log(e, limits()));
 }
 
 TEST(ExplainLog, ATorqueThatIsLostIsFoundWithJointOnsetAndSize) {
@@ -217,8 +216,8 @@ TEST(ExplainLog, AVibrationOfWhichAPushExplainsOnePeriodIsUnknown) {
 TEST(ExplainLog, AVibrationThatNoKnownFaultExplainsAtAllIsUnknown) {
   const LogFit fit = with_vibration(0.8);
   const LogExplanation e = explain_log(fit);
-  ASSERT_TRUE(named_faults(e, limits(), log_evidence(fit, e), 1).empty());
-  const auto fault = decide_log(e, limits(), log_evidence(fit, e));
+  ASSERT_TRUE(named_faults(e, limits(), 1).empty());
+  const auto fault = decide_log(e, limits());
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::unknown, 2}));
   EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.15);
@@ -349,11 +348,11 @@ TEST(Misfit, DoesNotDependOnWhichSideOfARowAFaultEnds) {
   const FreeForm change = free_form(fit);
   const double edge_s = reach_s(fit.model().setting);
   for (int row = fit.first_row(kEnd_s); row < fit.first_row(kEnd_s + 2.0 * edge_s); ++row) {
-    JudgedHypotheses judged{fit, {}};
+    JudgedHypotheses judged{fit};
     std::vector<double> nats;
     for (const double moved_s : {-1e-9, 1e-9}) {
       const double end_s = fit.time_s()[row] - edge_s + moved_s;
-      const FaultHypothesis* h = judged.go({FaultKind::torque_sensor_error, 2, 3.0, end_s, {}});
+      const std::optional<FaultHypothesis> h = judged.go({FaultKind::torque_sensor_error, 2, 3.0, end_s, {}});
       ASSERT_TRUE(h);
       nats.push_back(misfit(fit, change, *h));
     }

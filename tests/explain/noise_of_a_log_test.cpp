@@ -20,8 +20,7 @@ using testing::scara_model;
 using testing::simulate_closed_form;
 
 std::optional<ExplainedFault> decided(const LogFit& fit) {
-  const LogExplanation e = explain_log(fit);
-  return decide_log(e, evidence_limits({}), log_evidence(fit, e));
+  return decide_log(explain_log(fit), evidence_limits({}));
 }
 
 /// A torque that repeats with the position of joint 2, as that of a gear, from the first sample on.

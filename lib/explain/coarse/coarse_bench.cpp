@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace faultline {
 namespace {
@@ -12,10 +13,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kSameSamples = 3;  // between two onsets that count as one
-/// Shares of each state tolerated as errors of a wrong onset: a sample's worth, then a fifth each time.
-constexpr std::array<double, 4> kToleratedInTurn = {5e-3, 1e-3, 2e-4, 4e-5};
+/// Shares of each state tolerated as errors of a wrong onset: a fifth each time.
+constexpr std::array<double, 4> kToleratedInTurn = {kFirstTolerated, 1e-3, 2e-4, 4e-5};
 constexpr int kStepsForEach = 2;           // steps of Newton at each of these shares, at most
 constexpr double kNearSize = 0.2;          // relative difference of sizes that can share their steps
+constexpr double kUnexplained = 0.3;       // share of the healthy robot's excess over noise: more is unknown
 constexpr double kLeastDuration_s = 1e-3;  // shortest duration of a fault
 // Longest Newton step of an onset: share of a long sample; s for short samples.
 constexpr double kMostNewton = 0.7, kMostNewton_s = 0.03;
@@ -41,14 +43,24 @@ CoarseGuess approached(const CoarseLog& log, CoarseGuess guess, std::shared_ptr<
   return guess;
 }
 
-/// Returns the nats of an explanation over the healthy robot with the same effects of the day, by sample. Its
-/// own effects of the day are biased by the fault, so that rows before the fault would be evidence, too.
-VectorXd row_gain(const CoarseLog& log, const CoarseExplanation& fit) {
-  const CoarseExplanation& healthy = log.healthy;
-  const VectorXd bent = healthy.day_column * (fit.day - healthy.day);
-  const Eigen::Map<const MatrixXd> more(bent.data(), healthy.left.rows(), healthy.left.cols());
-  const MatrixXd gain = 0.5 * ((healthy.left - more).cwiseAbs2() - fit.left.cwiseAbs2() - fit.log_ratio);
-  return gain.colwise().sum().transpose();
+/// Returns the evidence of a judged guess from its onset on, against the healthy robot with the same effects
+/// of the day. Its own effects of the day are biased by the fault, so that rows before the fault would be
+/// evidence, too.
+EvidenceCourse course_of(const CoarseLog& log, const JudgedGuess& judged) {
+  const CoarseExplanation &healthy = log.healthy, &fit = judged.fit;
+  const VectorXd bent = healthy.day_column * (fit.day - healthy.day),
+                 more = (healthy.left - bent).cwiseAbs2() - fit.left.cwiseAbs2();
+  const Eigen::Map<const MatrixXd> by_sample(more.data(), fit.log_ratio.rows(), fit.log_ratio.cols());
+  const MatrixXd gain = 0.5 * (by_sample - fit.log_ratio);
+  const VectorXd by_row = gain.colwise().sum().transpose();
+  EvidenceCourse out;
+  double sum = 0.0;
+  for (int k = std::max(1, log.log.first_row(judged.guess.onset_s)); k < log.samples(); ++k) {
+    sum += by_row[k];
+    out.time_s.push_back(log.time_s(k));
+    out.nats.push_back(sum);
+  }
+  return out;
 }
 
 FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
@@ -63,11 +75,11 @@ FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
   if (judged.guess.duration_s > 0.0) out.end_s = out.onset_s + judged.guess.duration_s;
   out.gain = judged.gain;
   out.size = judged.fit.size;
-  out.fit.log_likelihood = judged.fit.log_likelihood;
-  out.fit.day = judged.fit.day;
-  out.fit.size = judged.fit.size;
-  out.fit.left = Eigen::Map<const VectorXd>(judged.fit.left.data(), judged.fit.left.size());
-  out.fit.row_gain = row_gain(log, judged.fit);
+  out.fit = judged.fit;
+  out.course = course_of(log, judged);
+  const double left = out.fit.mean_square();
+  if (left > kLargeResidual && left - 1.0 > kUnexplained * (log.healthy.mean_square() - 1.0))
+    out.misfit = std::numeric_limits<double>::infinity();
   return out;
 }
 
@@ -89,33 +101,34 @@ CoarseGuess with_times_moved(CoarseGuess guess, double onset_step_s, double end_
 
 std::optional<NewtonStep> newton_step(const CoarseLog& log, CoarseGuess guess, const CoarseJudging& how) {
   const double most = log.period_s() > kLongSample_s ? kMostNewton * log.period_s() : kMostNewton_s;
-  const CoarseExplanation fit = judge_coarse(log, guess, how);
-  if (fit.log_likelihood < -0.1 * kImpossibleAtCoarse) return std::nullopt;
-  const double onset_s = std::clamp(guess.onset_s + std::clamp(fit.onset_step_s, -most, most),
+  const std::optional<CoarseExplanation> fit = judge_coarse(log, guess, how);
+  if (!fit) return std::nullopt;
+  const double onset_s = std::clamp(guess.onset_s + std::clamp(fit->onset_step_s, -most, most),
                                     log.time_s(log.first_onset()), log.time_s(log.samples() - 3));
   guess = with_times_moved(guess, onset_s - guess.onset_s, 0.0);
-  guess.start = fit.size;
-  return NewtonStep{std::move(guess), fit.onset_step_s, fit.steps};
+  guess.start = fit->size;
+  return NewtonStep{std::move(guess), fit->onset_step_s, fit->steps};
 }
 
-JudgedGuess CoarseBench::go(const CoarseGuess& guess, int rounds,
-                            const std::shared_ptr<const CoarseSteps>& known) {
-  JudgedGuess out = judge_and_keep(guess, rounds, known);
+std::optional<JudgedGuess> CoarseBench::go(const CoarseGuess& guess, int rounds,
+                                           const std::shared_ptr<const CoarseSteps>& known) {
+  std::optional<JudgedGuess> out = judge_and_keep(guess, rounds, known);
   if (guess.kind != FaultKind::sensor_drift || guess.velocity_is_true || log.log.dq.rows() == 0) return out;
   CoarseGuess apart = guess;
   apart.velocity_is_true = true;
-  JudgedGuess other = judge_and_keep(apart, rounds, {});
-  return other.gain > out.gain ? other : out;
+  std::optional<JudgedGuess> other = judge_and_keep(apart, rounds, {});
+  return !out || (other && other->gain > out->gain) ? other : out;
 }
 
-JudgedGuess CoarseBench::judge_and_keep(const CoarseGuess& guess, int rounds,
-                                        const std::shared_ptr<const CoarseSteps>& known) {
-  JudgedGuess out{guess, guess.kind, 0.0, judge_coarse(log, guess, {.rounds = rounds, .known = known})};
-  out.gain = out.fit.log_likelihood - log.healthy.log_likelihood;
+std::optional<JudgedGuess> CoarseBench::judge_and_keep(const CoarseGuess& guess, int rounds,
+                                                       const std::shared_ptr<const CoarseSteps>& known) {
+  tried.push_back(guess);
+  std::optional<CoarseExplanation> fit = judge_coarse(log, guess, {.rounds = rounds, .known = known});
+  if (!fit) return std::nullopt;
+  JudgedGuess out{guess, guess.kind, fit->log_likelihood - log.healthy.log_likelihood, std::move(*fit)};
   if (guess.kind == FaultKind::unknown) out.gain -= kFormShare * kFormShare * std::max(0.0, out.gain);
   if (guess.kind == FaultKind::torque_loss && out.fit.size[0] > kFreeShare)
     out.kind = FaultKind::free_swinging;
-  tried.push_back(guess);
   const auto kept = std::ranges::find_if(
       best, [&](const JudgedGuess& o) { return o.kind == out.kind && o.guess.joint == out.guess.joint; });
   if (kept == best.end())
@@ -152,10 +165,11 @@ double CoarseBench::best_gain() const {
   return out;
 }
 
-std::vector<FaultHypothesis> CoarseBench::ranked() const {
-  std::vector<FaultHypothesis> out;
-  for (const JudgedGuess& j : best) out.push_back(hypothesis_of(log, j));
-  std::ranges::stable_sort(out, std::ranges::greater{}, &FaultHypothesis::gain);
+LogExplanation CoarseBench::explanation() const {
+  LogExplanation out;
+  for (const JudgedGuess& j : best) out.best.push_back(hypothesis_of(log, j));
+  std::ranges::stable_sort(out.best, std::ranges::greater{}, &FaultHypothesis::gain);
+  out.healthy_square = log.healthy.mean_square();
   return out;
 }
 

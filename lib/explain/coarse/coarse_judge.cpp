@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "lib/balance/regress.hpp"
 #include "lib/balance/rows.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/hypothesis.hpp"
+#include "lib/explain/search/sensor_jumps.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -55,7 +57,6 @@ struct Linearised {
   LinearSteps steps;
   FilterInput input;
   VectorXd precision, about;  ///< of the unknowns' prior, and the values that they are corrections to
-  bool finite = true;
 };
 
 double end_of(const CoarseGuess& guess) {
@@ -118,8 +119,9 @@ void add_onset_column(const CoarseLog& log, const MotionPlan& plan, const Coarse
   column.col(k * columns + columns - 1) = (then - now) / kOnsetNudge_s;
 }
 
-Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup& at,
-                     const CoarseJudging& how) {
+/// Returns the inputs of a round; empty if the integration diverges.
+std::optional<Linearised> linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup& at,
+                                    const CoarseJudging& how) {
   const OneStepModel& m = *log.model;
   const int n = log.joints(), j = guess.joint - 1, from = log.log.first_row(guess.onset_s);
   const FaultDirections fault = fault_directions(m, guess.kind, guess.joint);
@@ -141,9 +143,8 @@ Linearised linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup
     known.laws_are_alike = guess.kind != FaultKind::locked && at.size.size() == 0;
   }
   out.steps = linear_steps(log.log, at.about, m.setting, plan, known);
-  out.finite = out.steps.miss.allFinite() && out.steps.slope.allFinite() &&
-               out.steps.slope.cwiseAbs().maxCoeff() < kAbsurd;
-  if (!out.finite) return out;
+  if (!out.steps.miss.allFinite() || !out.steps.slope.allFinite()) return std::nullopt;
+  if (out.steps.slope.cwiseAbs().maxCoeff() >= kAbsurd) return std::nullopt;
   FilterInput& in = out.input;
   const int extra = (reading ? 1 : 0) + (how.move_onset ? 1 : 0), columns = effects + sizes + extra;
   MatrixXd directions = MatrixXd::Zero(m.layout().count(), sizes + extra);
@@ -196,8 +197,7 @@ Regressed regressed(const CoarseLog& log, const CoarseGuess& guess, const Linear
   const Regression fit = regress(normal_equations(x, y + x * lin.about), lin.precision);
   VectorXd change = fit.estimate - lin.about;
   CoarseExplanation out;
-  const VectorXd left = y - x * change;
-  out.left = Eigen::Map<const MatrixXd>(left.data(), filter.states, filter.samples);
+  out.left = y - x * change;
   out.variance = filter.variance;
   const MatrixXd& usual = log.healthy.variance;
   const bool healthy = guess.kind == FaultKind::none || usual.size() == 0;
@@ -245,29 +245,12 @@ Setup next_round(const CoarseLog& log, const CoarseGuess& guess, const Setup& at
   return next;
 }
 
-/// Returns an explanation for a guess that cannot be integrated.
-CoarseExplanation impossible(const CoarseLog& log, const CoarseGuess& guess) {
-  CoarseExplanation out;
-  out.log_likelihood = -kImpossibleAtCoarse;
-  out.day = VectorXd::Zero(log.day.cols());
-  out.size = VectorXd::Zero(prior_of_sizes(*log.model, guess.kind, guess.joint).size());
-  out.left = out.log_ratio = MatrixXd::Zero(log.read.rows(), log.read.cols());
-  out.variance = MatrixXd::Ones(log.read.rows(), log.read.cols());
-  out.day_column = MatrixXd::Zero(log.read.size(), log.day.cols());
-  return out;
-}
-
-int repeats_from(const CoarseLog& log, int j, int from) {
-  int same = 0;
-  for (int k = std::max(1, from); k < log.samples(); ++k) same += log.log.q(k, j) == log.log.q(k - 1, j);
-  return same;
-}
-
 /// Returns the share of the samples from `from` on, without two, that repeat the position before.
 double share_repeated(const CoarseLog& log, int j, int from) {
   const int first = std::min(from + 2, log.samples() - 1);
-  return log.samples() - from > 3 ? static_cast<double>(repeats_from(log, j, first)) / (log.samples() - first)
-                                  : 0.0;
+  return log.samples() - from > 3
+             ? static_cast<double>(repeats(log.log, j, first, log.samples())) / (log.samples() - first)
+             : 0.0;
 }
 
 /// Returns the nats of a first false code that does not repeat the last true one: it may be any position that
@@ -303,7 +286,7 @@ double coarse_price(const CoarseLog& log, const CoarseGuess& guess, const Coarse
       if (share_repeated(log, j, from) < kStuckShare) return kCodesMove;
       const double kept = log.keep.row(j).tail(late).sum();
       const double evidence = repeats_are_evidence(*log.model, j)
-                                  ? std::min(repeats_from(log, j, from), kMostRepeats) *
+                                  ? std::min(repeats(log.log, j, from, log.samples()), kMostRepeats) *
                                         elementary::log(1.0 / log.model->repeat_share[j])
                                   : 0.0;
       return kStillJoint + kUnreadSample * kept + price_of_new_code(log, j, from) - evidence;
@@ -321,6 +304,15 @@ double coarse_price(const CoarseLog& log, const CoarseGuess& guess, const Coarse
 
 }  // namespace
 
+CoarseGuess guess_of(const FaultClaim& claim) {
+  return {column_kind(claim.kind),
+          claim.joint,
+          claim.onset_s,
+          claim.end_s < kNeverEnds ? claim.end_s - claim.onset_s : 0.0,
+          claim.size,
+          claim.velocity_is_true};
+}
+
 VectorXd tolerated_variance(const OneStepModel& m, double tolerated_share) {
   VectorXd range(2 * m.joints());
   range << m.q_high - m.q_low, m.top_speed;
@@ -337,7 +329,8 @@ MatrixXd tolerated_force(const CoarseLog& log, double tolerated_share) {
   return out;
 }
 
-CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how) {
+std::optional<CoarseExplanation> judge_coarse(const CoarseLog& log, const CoarseGuess& guess,
+                                              const CoarseJudging& how) {
   const int n = log.joints(), j = guess.joint - 1, from = log.log.first_row(guess.onset_s);
   const int late = log.samples() - from;
   const bool locked = guess.kind == FaultKind::locked && late > 0;
@@ -347,31 +340,28 @@ CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, c
     at = {how.known->day, how.known->size, how.known->about, how.known, false};
   if (at.size.size() > 0) at.size = within_reason(log, guess, at.size);
   const double rest = locked ? log.read.row(j).tail(late).mean() : 0.0;
-  CoarseExplanation best;
-  bool any = false;
+  std::optional<CoarseExplanation> best;
   for (int round = 0; round < how.rounds; ++round) {
     if (locked) {
       at.about.row(j).tail(late).setConstant(at.known ? at.known->about(j, log.samples() - 1) : rest);
       at.about.row(n + j).tail(late).setZero();
     }
-    Linearised lin = linearise(log, guess, at, how);
-    if (!lin.finite) break;
-    Regressed now = regressed(log, guess, lin, how);
-    const CoarseExplanation& e = now.explanation;
-    const double gained = any ? e.log_likelihood - best.log_likelihood : kImpossibleAtCoarse;
+    std::optional<Linearised> lin = linearise(log, guess, at, how);
+    if (!lin) break;
+    Regressed now = regressed(log, guess, *lin, how);
+    const double gained = best ? now.explanation.log_likelihood - best->log_likelihood
+                               : std::numeric_limits<double>::infinity();
     const bool is_last = round + 1 == how.rounds || std::abs(gained) < kSettled_nats;
-    Setup next = is_last ? Setup{} : next_round(log, guess, at, lin.steps, now);
-    if (!any || gained > 0.0) {
+    Setup next = is_last ? Setup{} : next_round(log, guess, at, lin->steps, now);
+    if (gained > 0.0) {
       best = std::move(now.explanation);
-      best.steps = std::make_shared<const CoarseSteps>(CoarseSteps{
-          at.day, at.size, std::move(at.about), std::move(lin.steps), guess.onset_s, end_of(guess)});
+      best->steps = std::make_shared<const CoarseSteps>(CoarseSteps{
+          at.day, at.size, std::move(at.about), std::move(lin->steps), guess.onset_s, end_of(guess)});
     }
-    any = true;
     if (is_last) break;
     at = std::move(next);
   }
-  if (!any) return impossible(log, guess);
-  best.log_likelihood -= coarse_price(log, guess, best, from);
+  if (best) best->log_likelihood -= coarse_price(log, guess, *best, from);
   return best;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <optional>
 
 #include "lib/explain/coarse/coarse_log.hpp"
 #include "lib/explain/coarse/fault_directions.hpp"
@@ -19,6 +21,9 @@ struct CoarseGuess {
   bool velocity_is_true = false;  ///< of a drift, see FaultClaim
 };
 
+/// Returns the guess that a claim begins with.
+CoarseGuess guess_of(const FaultClaim& claim);
+
 struct CoarseJudging {
   int rounds = 1;                ///< of integration and regression in turn; the first uses known steps
   bool move_onset = false;       ///< the onset is a further unknown
@@ -29,11 +34,10 @@ struct CoarseJudging {
 };
 
 /// Explains the log by a guess in rounds, each integrated and linearised about the trajectory that the one
-/// before implies. Returns the best round, with its price subtracted.
-CoarseExplanation judge_coarse(const CoarseLog& log, const CoarseGuess& guess, const CoarseJudging& how);
-
-/// Log-likelihood of a guess that cannot be integrated, times -1.
-inline constexpr double kImpossibleAtCoarse = 1e14;
+/// before implies. Returns the best round, with its price subtracted; empty if the guess cannot be
+/// integrated.
+std::optional<CoarseExplanation> judge_coarse(const CoarseLog& log, const CoarseGuess& guess,
+                                              const CoarseJudging& how);
 
 /// Returns the variance to add to each measurement (2 joints), and the standard deviation of the unknown
 /// force in each interval (joints x intervals), if errors of a share `tolerated_share` of each joint's range,

@@ -8,6 +8,7 @@
 
 #include "lib/balance/rest.hpp"
 #include "lib/explain/coarse/coarse_judge.hpp"
+#include "lib/explain/hypothesis.hpp"
 
 namespace faultline {
 namespace {
@@ -19,8 +20,6 @@ constexpr double kMissingTorqueStd = 1.0;  // share of usual and logged torque t
 constexpr int kSmoothings = 4;             // rounds of smoothing: a force as large as the torque converges
 constexpr double kStillChanges = 30.0;  // standard deviations of a measurement that the last round may change
 constexpr int kHealthyRounds = 2;       // of integration and regression for the healthy robot
-constexpr double kFirstOnset_s = 0.5;   // s at the start of a log, in which no onset is searched,
-constexpr int kFirstOnset = 6;          // or samples, whichever is longer
 constexpr int kFewestStays = 4;         // samples for which it stays, at least
 constexpr double kStillShare = 0.02;    // share of the joint's usual speed in this log that is still rest,
 constexpr double kStillNoise = 1.5;     // beside so many standard deviations of a measured velocity
@@ -128,7 +127,7 @@ void find_stops(CoarseLog& log) {
 }  // namespace
 
 int CoarseLog::first_onset() const {
-  return static_cast<int>(std::ceil(std::max(kFirstOnset_s, kFirstOnset * period_s()) / period_s()));
+  return static_cast<int>(std::ceil(std::max(kLead_s, kLeadRows * period_s()) / period_s()));
 }
 
 std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model) {
@@ -149,7 +148,9 @@ std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model)
   find_stops(out);
   const MotionLaw law(model.body, out.numbers);
   out.healthy_steps = linear_steps(out.log, out.about, model.setting, {.usual = &law});
-  out.healthy = judge_coarse(out, {}, {.rounds = kHealthyRounds});
+  std::optional<CoarseExplanation> healthy = judge_coarse(out, {}, {.rounds = kHealthyRounds});
+  if (!healthy) return std::nullopt;
+  out.healthy = std::move(*healthy);
   return out;
 }
 

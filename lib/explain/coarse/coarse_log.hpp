@@ -8,6 +8,7 @@
 
 #include "lib/balance/one_step/innovations.hpp"
 #include "lib/balance/one_step/one_step_model.hpp"
+#include "lib/explain/log_fit.hpp"
 
 namespace faultline {
 
@@ -19,21 +20,15 @@ struct CoarseSteps {
   double begin_s = 1e300, end_s = 1e300;  ///< times of the fault in them
 };
 
-/// A log explained at a coarse rate: the result of the filter and the regression.
-struct CoarseExplanation {
-  double log_likelihood = 0.0;      ///< marginal, up to a constant that all hypotheses of the log share
-  Eigen::VectorXd day;              ///< effects of the day, see OneStepModel::day_variance
-  Eigen::VectorXd size;             ///< of the hypothesis
-  Eigen::MatrixXd size_covariance;  ///< of the sizes, given measurements and prior
-  double onset_step_s = 0.0;        ///< by which the onset should move; only with CoarseJudging::move_onset
-  Eigen::MatrixXd left;             ///< 2 joints x samples: whitened residuals (innovations)
-  Eigen::MatrixXd variance;         ///< of each innovation; NaN without a measurement
-  Eigen::MatrixXd log_ratio;        ///< ln of `variance` over that of the healthy robot; 0 without it
+/// A log explained at a coarse rate: the result of the filter and the regression. The residuals `left` are
+/// whitened innovations: those of q, then of dq, of each joint, sample after sample.
+struct CoarseExplanation : Explanation {
+  double onset_step_s = 0.0;  ///< by which the onset should move; only with CoarseJudging::move_onset
+  Eigen::MatrixXd variance;   ///< 2 joints x samples: of each innovation; NaN without a measurement
+  Eigen::MatrixXd log_ratio;  ///< ln of `variance` over that of the healthy robot; 0 without it
   /// (2 joints * samples) x effects: whitened columns of the effects of the day. Only for the healthy robot.
   Eigen::MatrixXd day_column;
   std::shared_ptr<const CoarseSteps> steps{};  ///< of the round that gave this explanation
-
-  double mean_square() const { return left.squaredNorm() / static_cast<double>(left.size()); }
 };
 
 /// One log and one model at a coarse rate: the common part of all hypotheses.
@@ -63,7 +58,7 @@ struct CoarseLog {
 };
 
 /// Prepares a log, up to the first interval through which the robot cannot be integrated. Empty if too few
-/// samples remain. The model must outlive the result.
+/// samples remain, or if the integration diverges. The model must outlive the result.
 std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model);
 
 /// Prepares the part of the log up to which smoothing converges; empty if too few samples remain.

@@ -2,7 +2,6 @@
 #include "lib/explain/coarse/explain_coarse.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "lib/core/statistics.hpp"
@@ -14,13 +13,10 @@
 namespace faultline {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnexplained = 0.3;      // share of the healthy robot's excess over noise: more is unknown
-constexpr std::size_t kJudged = 14;       // candidates of the search that are rated, best first
-constexpr std::size_t kApproached = 8;    // guesses that are moved towards their best onset
-constexpr double kFirstTolerated = 5e-3;  // share of each state that is tolerated as error, to choose these
+constexpr std::size_t kJudged = 14;            // candidates of the search that are rated, best first
+constexpr std::size_t kApproached = 8;         // guesses that are moved towards their best onset
 constexpr std::size_t kOnsetsForAllKinds = 2;  // onsets at which every linear kind is tried
 constexpr std::size_t kMoved = 4;              // hypotheses whose onset is refined
 constexpr int kMostMoves = 24;                 // rounds of moves of an onset, at most
@@ -59,24 +55,18 @@ std::vector<CoarseGuess> guesses_of(const CoarseSearch& search, CoarseBench& ben
 
 /// Judges the guesses that explain the log best with tolerated errors, then again at their best onsets.
 void judge_candidates(const CoarseSearch& search, CoarseBench& bench) {
-  struct Rated {
-    CoarseGuess guess;
-    double log_likelihood = 0.0;
-    std::shared_ptr<const CoarseSteps> steps;
-  };
-  std::vector<Rated> rated;
+  std::vector<JudgedGuess> rated;
   for (const CoarseGuess& guess : guesses_of(search, bench)) {
-    const CoarseExplanation e =
-        judge_coarse(bench.log, guess, {.rounds = 1, .tolerated_share = kFirstTolerated});
-    rated.push_back({guess, e.log_likelihood, e.steps});
+    auto e = judge_coarse(bench.log, guess, {.rounds = 1, .tolerated_share = kFirstTolerated});
+    if (e) rated.push_back({guess, guess.kind, e->log_likelihood, std::move(*e)});
   }
-  std::ranges::stable_sort(rated, std::ranges::greater{}, &Rated::log_likelihood);
+  std::ranges::stable_sort(rated, std::ranges::greater{}, &JudgedGuess::gain);
   std::size_t approached = 0;
-  for (const Rated& r : rated) {
+  for (const JudgedGuess& r : rated) {
     if (approached == kApproached) break;
     if (bench.tried_near(r.guess.kind, r.guess.joint, r.guess.onset_s)) continue;
-    bench.go(r.guess, 1, r.steps);
-    bench.go_near(r.guess, r.steps);
+    bench.go(r.guess, 1, r.fit.steps);
+    bench.go_near(r.guess, r.fit.steps);
     ++approached;
   }
 }
@@ -127,9 +117,9 @@ bool may_begin(const CoarseLog& log, double onset_s) {
 bool try_times(double onset_step_s, double end_step_s, JudgedGuess& best, CoarseBench& bench) {
   const CoarseGuess guess = with_times_moved(best.guess, onset_step_s, end_step_s);
   if (!may_begin(bench.log, guess.onset_s)) return false;
-  JudgedGuess now = bench.go(guess, 1, best.fit.steps);
-  if (now.gain <= best.gain) return false;
-  best = std::move(now);
+  std::optional<JudgedGuess> now = bench.go(guess, 1, best.fit.steps);
+  if (!now || now->gain <= best.gain) return false;
+  best = std::move(*now);
   return true;
 }
 
@@ -163,27 +153,25 @@ JudgedGuess moved(const JudgedGuess& start, CoarseBench& bench) {
   const bool stayed =
       best.guess.onset_s == start.guess.onset_s && best.guess.duration_s == start.guess.duration_s;
   if (stayed || start.guess.kind == FaultKind::locked) return best;
-  JudgedGuess anew = bench.go(best.guess, CoarseBench::kCoarseRounds, best.fit.steps);
-  return anew.gain > best.gain ? anew : best;
+  const std::optional<JudgedGuess> anew = bench.go(best.guess, CoarseBench::kCoarseRounds, best.fit.steps);
+  return anew && anew->gain > best.gain ? *anew : best;
 }
 
 /// Moves onset and size together by Newton steps.
-JudgedGuess settled(const JudgedGuess& start, CoarseBench& bench) {
-  JudgedGuess at = start, best = start;
+void settle(JudgedGuess at, CoarseBench& bench) {
   for (int k = 0; k < kNewton; ++k) {
     const std::optional<NewtonStep> step =
         newton_step(bench.log, at.guess, {.move_onset = true, .known = at.fit.steps});
     if (!step) break;
-    at = bench.go(step->guess, CoarseBench::kCoarseRounds - 1, at.fit.steps);
-    if (at.gain > best.gain) best = at;
-    if (std::abs(step->onset_step_s) < kSettled_s) break;
+    std::optional<JudgedGuess> next = bench.go(step->guess, CoarseBench::kCoarseRounds - 1, at.fit.steps);
+    if (!next || std::abs(step->onset_step_s) < kSettled_s) break;
+    at = std::move(*next);
   }
-  return best;
 }
 
 void refine(const JudgedGuess& start, CoarseBench& bench) {
   JudgedGuess best = moved(start, bench);
-  if (moves_with_onset(start.guess.kind)) settled(best, bench);
+  if (moves_with_onset(start.guess.kind)) settle(std::move(best), bench);
 }
 
 /// Returns the best few guesses, one of each kind and joint; a free joint is a lost torque.
@@ -198,24 +186,6 @@ std::vector<JudgedGuess> to_refine(const std::vector<JudgedGuess>& all) {
     if (out.size() == kMoved) break;
   }
   return out;
-}
-
-EvidenceCourse course_of(const CoarseLog& log, const FaultHypothesis& hypothesis) {
-  const int onset = log.log.first_row(hypothesis.onset_s);
-  EvidenceCourse out;
-  double sum = 0.0;
-  for (int k = std::max(0, onset - 1) + 1; k < log.samples(); ++k) {
-    sum += hypothesis.fit.row_gain[k];
-    out.time_s.push_back(log.time_s(k));
-    out.nats.push_back(sum);
-  }
-  return out;
-}
-
-double misfit_of(const LogExplanation& e, const FaultHypothesis& h) {
-  const double left = h.fit.mean_square();
-  const bool much = left > kLargeResidual && left - 1.0 > kUnexplained * (e.healthy_square - 1.0);
-  return much ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
 }  // namespace
@@ -236,40 +206,31 @@ LogExplanation explain_coarse(const CoarseLog& log) {
     const double enough = std::max(kWorthRefining, kMayWin * bench.best_gain());
     if (j.gain >= enough && !fixed) refine(j, bench);
   }
-  LogExplanation out;
-  out.best = bench.ranked();
-  out.healthy_square = log.healthy.mean_square();
-  return out;
+  return bench.explanation();
 }
 
 FaultClaim followed_coarse(const CoarseLog& log, FaultClaim lasting, double limit) {
   CoarseBench bench(log);
-  JudgedGuess best = bench.go({column_kind(lasting.kind), lasting.joint, lasting.onset_s, 0.0, lasting.size,
-                               lasting.velocity_is_true});
+  std::optional<JudgedGuess> best = bench.go(guess_of(lasting));
   double end_s = log.end_s();
-  for (double step = 0.5 * (end_s - log.time_s(0)); step > 0.5 * log.period_s(); step *= 0.5)
+  for (double step = 0.5 * (end_s - log.time_s(0)); best && step > 0.5 * log.period_s(); step *= 0.5)
     for (const double moved_s : {end_s - step, end_s + step}) {
       if (moved_s >= log.end_s()) continue;
-      CoarseGuess guess = best.guess;
+      CoarseGuess guess = best->guess;
       guess.duration_s = moved_s - guess.onset_s;
-      JudgedGuess ends = bench.go(guess, CoarseBench::kCoarseRounds, best.fit.steps);
-      const double enough = best.guess.duration_s > 0.0 ? best.gain : best.gain + kEndEvidence;
-      if (ends.gain <= enough) continue;
+      std::optional<JudgedGuess> ends = bench.go(guess, CoarseBench::kCoarseRounds, best->fit.steps);
+      const double enough = best->guess.duration_s > 0.0 ? best->gain : best->gain + kEndEvidence;
+      if (!ends || ends->gain <= enough) continue;
       best = std::move(ends);
       end_s = moved_s;
     }
-  if (best.gain <= limit) {
+  if (!best || best->gain <= limit) {
     lasting.end_s = log.time_s(0);
     return lasting;
   }
-  if (best.guess.duration_s > 0.0) lasting.end_s = end_s;
-  if (best.fit.size.size() == lasting.size.size()) lasting.size = best.fit.size;
+  if (best->guess.duration_s > 0.0) lasting.end_s = end_s;
+  if (best->fit.size.size() == lasting.size.size()) lasting.size = best->fit.size;
   return lasting;
-}
-
-LogEvidence coarse_evidence(const CoarseLog& log, const LogExplanation& e) {
-  return {[&log](const FaultHypothesis& h) { return course_of(log, h); },
-          [&e](const FaultHypothesis& h) { return misfit_of(e, h); }};
 }
 
 }  // namespace faultline
