@@ -45,9 +45,36 @@ struct EffectStd {
 // differences that a few days cannot show (friction by the warmth of the gear, inertia and torque constants
 // by manufacture, friction near rest, where healthy logs have few rows, viscous friction, which warmth
 // changes more than dry friction, and the loss of a gear by the torque that it carries).
-constexpr EffectStd kFirst{1.7e-3, 0.1, 0.03, 1.7e-3, 2e-3, 0.1, 0.1, 0.03, 0.01, 0.1};
-constexpr EffectStd kLeast{3e-4, 0.01, 3e-3, 3e-4, 2e-4, 0.02, 0.01, 3e-3, 1e-3, 0.01};
-constexpr EffectStd kUnseen{1e-2, 0.05, 0.03, 1e-2, 1e-3, 0.1, 0.05, 0.03, 0.02, 0.3};
+constexpr EffectStd kFirst{.inertia = 1.7e-3,
+                           .friction = 0.1,
+                           .slope = 0.03,
+                           .gain = 1.7e-3,
+                           .offset = 2e-3,
+                           .width = 0.1,
+                           .viscous = 0.1,
+                           .direction = 0.03,
+                           .load = 0.01,
+                           .delay = 0.1};
+constexpr EffectStd kLeast{.inertia = 3e-4,
+                           .friction = 0.01,
+                           .slope = 3e-3,
+                           .gain = 3e-4,
+                           .offset = 2e-4,
+                           .width = 0.02,
+                           .viscous = 0.01,
+                           .direction = 3e-3,
+                           .load = 1e-3,
+                           .delay = 0.01};
+constexpr EffectStd kUnseen{.inertia = 1e-2,
+                            .friction = 0.05,
+                            .slope = 0.03,
+                            .gain = 1e-2,
+                            .offset = 1e-3,
+                            .width = 0.1,
+                            .viscous = 0.05,
+                            .direction = 0.03,
+                            .load = 0.02,
+                            .delay = 0.3};
 
 /// Returns the model with ranges, top speeds, noise and repeated positions of the healthy logs.
 BalanceModel with_healthy_motion(const std::vector<UniformLog>& logs, BalanceModel m) {
