@@ -47,6 +47,41 @@ VectorXd MeasuredResidual::drive(int j, const VectorXd& speed, const VectorXd& q
   return out;
 }
 
+MatrixXd MeasuredResidual::carried(const VectorXd& q_of_joint, const VectorXd& velocity, int joint,
+                                   int from) const {
+  const Index samples = q_of_joint.size();
+  MatrixXd out(samples - 1 - from, layout_.joints);
+  struct {
+    JointVector momentum, force;
+  } before, now;
+  for (Index k = from; k < samples; ++k) {
+    JointVector q = q_.col(k), dq = row_of(frame_.at.velocity, k);
+    q[joint] = q_of_joint[k];
+    dq[joint] = velocity[k];
+    dynamics_.momentum_and_force(q, dq, now.momentum, now.force);
+    if (k > from)
+      out.row(k - 1 - from) =
+          ((now.momentum - before.momentum) / setting_.period_s - 0.5 * (now.force + before.force))
+              .transpose();
+    std::swap(before, now);
+  }
+  return out;
+}
+
+MatrixXd MeasuredResidual::of_drives(const VectorXd& velocity, const VectorXd& speed, int joint) const {
+  MatrixXd velocities = frame_.at.velocity, speeds = frame_.at.link_speed;
+  velocities.col(joint) = velocity;
+  speeds.col(joint) = speed;
+  MatrixXd out = MatrixXd::Zero(speeds.rows(), speeds.cols());
+  for (int d = 0; d < layout_.drives; ++d) {
+    const CoupledDrive& drive = setting_.drives[d];
+    const VectorXd torque =
+        drive_columns(drive, velocities, speeds, setting_.period_s) * theta_.segment<3>(layout_.drive(d));
+    out += torque * drive.along.transpose();
+  }
+  return out;
+}
+
 MatrixXd MeasuredResidual::of(const MeasuredMotion& moved, int joint, int first_row) const {
   const CoarseGrid& grid = frame_.grid;
   const Index samples = moved.q.size();
@@ -54,44 +89,21 @@ MatrixXd MeasuredResidual::of(const MeasuredMotion& moved, int joint, int first_
   const VectorXd velocity = fused_velocity(moved, setting_, joint);
   const VectorXd q_middle = 0.5 * (moved.q.head(samples - 1) + moved.q.tail(samples - 1));
   const VectorXd speed = link_speed(velocity, frame_.at.torque.col(joint), setting_, joint);
-  MatrixXd driving = drive_.bottomRows(drive_.rows() - from);
-  driving.col(joint) = drive(joint, speed, q_middle).tail(driving.rows());
-  MatrixXd carried(driving.rows(), driving.cols());
-  struct {
-    JointVector momentum, force;
-  } before, now;
-  for (Index k = from; k < samples; ++k) {
-    JointVector q = q_.col(k), dq = row_of(frame_.at.velocity, k);
-    q[joint] = moved.q[k];
-    dq[joint] = velocity[k];
-    dynamics_.momentum_and_force(q, dq, now.momentum, now.force);
-    if (k > from)
-      carried.row(k - 1 - from) =
-          ((now.momentum - before.momentum) / setting_.period_s - 0.5 * (now.force + before.force))
-              .transpose();
-    std::swap(before, now);
-  }
+  const MatrixXd rigid = carried(moved.q, velocity, joint, from);
   const auto at_rows = [&](const MatrixXd& values) {
     return smooth_at(values, frame_.kernel, grid.first, grid.step, grid.count - first_row);
   };
-  MatrixXd left = driving - carried, velocities, speeds;
-  if (layout_.drives > 0) {
-    velocities = frame_.at.velocity, speeds = frame_.at.link_speed;
-    velocities.col(joint) = velocity, speeds.col(joint) = speed;
-  }
-  for (int d = 0; d < layout_.drives; ++d) {
-    const CoupledDrive& drive = setting_.drives[d];
-    const VectorXd torque =
-        drive_columns(drive, velocities, speeds, setting_.period_s) * theta_.segment<3>(layout_.drive(d));
-    left -= torque.tail(left.rows()) * drive.along.transpose();
-  }
+  MatrixXd left = drive_.bottomRows(rigid.rows());
+  left.col(joint) = drive(joint, speed, q_middle).tail(rigid.rows());
+  left -= rigid;
+  if (layout_.drives > 0) left -= of_drives(velocity, speed, joint).bottomRows(rigid.rows());
   MatrixXd out = at_rows(left);
   for (int j = 0; j < layout_.joints; ++j) {
     const double load = theta_[layout_.load(j)];
     if (load == 0.0) continue;
     const VectorXd own = j == joint ? speed : frame_.at.link_speed.col(j);
-    const MatrixXd turning = at_rows(saturated(own.tail(carried.rows()), setting_.friction_width[j]));
-    out.col(j) -= load * at_rows(carried.col(j)).cwiseAbs().cwiseProduct(turning);
+    const MatrixXd turning = at_rows(saturated(own.tail(rigid.rows()), setting_.friction_width[j]));
+    out.col(j) -= load * at_rows(rigid.col(j)).cwiseAbs().cwiseProduct(turning);
   }
   return out;
 }

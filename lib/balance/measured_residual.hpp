@@ -25,6 +25,14 @@ class MeasuredResidual {
   /// offset, delay and ripple, by interval.
   Eigen::VectorXd drive(int joint, const Eigen::VectorXd& speed, const Eigen::VectorXd& q) const;
 
+  /// Returns the torque that the gears carry for the bodies, by interval from `from` on, with another motion
+  /// of joint `joint`: intervals x joints.
+  Eigen::MatrixXd carried(const Eigen::VectorXd& q_of_joint, const Eigen::VectorXd& velocity, int joint,
+                          int from) const;
+  /// Returns the torque of the coupled drives, by interval, with another motion of joint `joint`: intervals x
+  /// joints.
+  Eigen::MatrixXd of_drives(const Eigen::VectorXd& velocity, const Eigen::VectorXd& speed, int joint) const;
+
   RowSetting setting_;
   ColumnLayout layout_;
   Eigen::VectorXd theta_;
