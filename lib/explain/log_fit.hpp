@@ -26,7 +26,6 @@ struct Explanation {
   PiecePath path;                   ///< of the work piece; empty without one
   Eigen::VectorXd piece_level;      ///< the path, smoothed
   Eigen::VectorXd later_s;          ///< by change of the path: delay after the middle of its two rows
-  Eigen::VectorXd row_gain;         ///< by sample, at coarse rates: nats over the healthy robot
   double mean_square() const;       ///< of the residuals: 1 if they are noise
 };
 
