@@ -64,9 +64,10 @@ inline FaultFinding locked_joint() {
   f.rbfn = {f.label, 0.95};
   f.decided_by = DecidedBy::agreement;
   f.precedents = example_precedents();
-  f.could_also_be = {{{FaultKind::stuck_encoder, 2},
-                      "both show a position that does not change; only exactly repeated encoder codes and the "
-                      "motion of the other joints distinguish them"}};
+  f.could_also_be = {
+      {{FaultKind::stuck_encoder, 2},
+       "both show a position that does not change; only exactly repeated encoder codes and the "
+       "motion of the other joints distinguish them"}};
   f.evidence = {{"log_likelihood_ratio", 312.4, "", "log likelihood of this fault over none"},
                 {"residual_peak", 41.5, "healthy rms", "largest velocity residual of joint 2"}};
   f.next_check = next_check_for(f.label);
