@@ -71,7 +71,7 @@ std::vector<WrongInput> wrong_inputs() {
   add("q3 and dq3 in mm", {"mm"}, [](Log& l) { scale_motion(l, 2, 1e3); });
   add("q3 in mm", {"mm"}, [](Log& l) { scale(l.q[2], 1e3); });
   add("dq3 in mm/s", {"mm"}, [](Log& l) { scale(l.dq[2], 1e3); });
-  add("time in ms", {"milliseconds"}, [](Log& l) { scale(l.time, 1e3); });
+  add("time in ms", {"in ms"}, [](Log& l) { scale(l.time, 1e3); });
   add("torques in mN m", {"torque"}, [](Log& l) {
     for (auto& tau : l.tau) scale(tau, 1e3);
   });
