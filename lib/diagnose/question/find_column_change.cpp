@@ -15,6 +15,7 @@ namespace {
 constexpr double kAtOnset_s = 0.1;     // after the onset, which is an estimate: not tested
 constexpr double kTimesWorse = 3.0;    // ratio to the misfit before the change, or of other columns
 constexpr double kNothingLeft = 0.02;  // least misfit: below it, all interpretations are as good
+constexpr double kActs = 0.05;         // share of the largest healthy torque: a torque that acts is larger
 
 struct Sides {
   Log before, behind;
@@ -63,6 +64,22 @@ bool explains(const std::vector<double>& reading, const std::vector<double>& pla
   return any && better;
 }
 
+double largest(const std::vector<double>& values) {
+  double out = 0.0;
+  for (const double value : values) out = std::fmax(out, std::abs(value));  // NaN does not count
+  return out;
+}
+
+/// Whether the interpretation makes the torque of a joint so small that it does not act: what it explains is
+/// a joint that swings free.
+bool lets_a_joint_swing(const Log& plain, const Log& converted, const KnownRobot& robot) {
+  for (std::size_t j = 0; j < plain.tau.size(); ++j) {
+    const double acts = kActs * robot.usual.torque_scale[j];
+    if (largest(plain.tau[j]) > acts && largest(converted.tau[j]) < acts) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<ColumnChange> find_column_change(LogSource& log, const KnownRobot& robot, double onset_s) {
@@ -71,6 +88,7 @@ std::optional<ColumnChange> find_column_change(LogSource& log, const KnownRobot&
   const std::vector<double> before = median_misfits(fit_to_robot(sides.before, robot)),
                             plain = median_misfits(fit_to_robot(sides.behind, robot));
   const auto score = [&](const ColumnInterpretation&, const std::vector<Log>& logs) -> std::optional<double> {
+    if (lets_a_joint_swing(sides.behind, logs.front(), robot)) return std::nullopt;
     const std::vector<JointMatch> fit = fit_to_robot(logs.front(), robot);
     const bool velocities_fit =
         std::ranges::all_of(fit, [](const JointMatch& joint) { return joint.velocity_factor == 1.0; });
