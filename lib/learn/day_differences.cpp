@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
+#include "lib/identify/days/fit_days.hpp"
 #include "lib/identify/feasible/feasible.hpp"
 
 namespace faultline {
@@ -35,12 +37,9 @@ int offset_at(const StepDayLayout& at, int joint) { return at.force(joint); }
 /// Returns an extra friction of the model, not negative; `estimate` if it is none. One-step models have no
 /// friction by load.
 double extra_friction(const BalanceModel& m, const ExtraTerm& term, double estimate) {
-  const ColumnLayout at = m.layout();
-  const auto positive = [&](int column) { return std::max(m.theta[column], 0.0); };
-  if (term.kind == ExtraKind::load_friction) return positive(at.load(term.joint));
-  if (term.kind == ExtraKind::shared_viscous) return positive(at.drive(term.index) + 1);
-  if (term.kind == ExtraKind::shared_coulomb) return positive(at.drive(term.index) + 2);
-  return estimate;
+  const std::optional<int> column = column_of(term, m.layout());
+  if (!column || term.kind == ExtraKind::shared_inertia) return estimate;
+  return std::max(m.theta[*column], 0.0);
 }
 double extra_friction(const OneStepModel&, const ExtraTerm& term, double estimate) {
   return term.kind == ExtraKind::load_friction ? 0.0 : estimate;

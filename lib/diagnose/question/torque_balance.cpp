@@ -177,7 +177,7 @@ std::vector<JointMatch> fit_to_robot(const Log& log, const KnownRobot& robot) {
       fit_ratio(balance[j], scale, out[j]);
     }
   } catch (const Error&) {
-    return std::vector<JointMatch>(robot.joints());  // no motion that can be compared with a robot
+    return std::vector<JointMatch>(robot.joints());  // the log has no motion to compare
   }
   return out;
 }

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "lib/balance/rest.hpp"
@@ -92,15 +91,6 @@ BalanceModel with_healthy_motion(const std::vector<UniformLog>& logs, BalanceMod
   m.q_noise = joint_medians(q);
   m.dq_noise = joint_medians(dq);
   return m;
-}
-
-/// Returns the column of an extra term of the robot; none if the rows look for such terms themselves.
-std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout) {
-  if (term.kind == ExtraKind::load_friction) return layout.load(term.joint);
-  if (term.kind == ExtraKind::shared_inertia) return layout.drive(term.index);
-  if (term.kind == ExtraKind::shared_viscous) return layout.drive(term.index) + 1;
-  if (term.kind == ExtraKind::shared_coulomb) return layout.drive(term.index) + 2;
-  return std::nullopt;
 }
 
 /// Returns rows, setting and a first fit of the rigid robot. Load friction and coupled drives are used where
@@ -312,6 +302,14 @@ Eigen::VectorXd prior_of_a_day(const BalanceModel& model, const Eigen::VectorXd&
 }
 
 }  // namespace
+
+std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout) {
+  if (term.kind == ExtraKind::load_friction) return layout.load(term.joint);
+  if (term.kind == ExtraKind::shared_inertia) return layout.drive(term.index);
+  if (term.kind == ExtraKind::shared_viscous) return layout.drive(term.index) + 1;
+  if (term.kind == ExtraKind::shared_coulomb) return layout.drive(term.index) + 2;
+  return std::nullopt;
+}
 
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
                     TorqueTiming torque_between_samples) {
