@@ -300,33 +300,47 @@ void FastDynamics::drag(const JointVector& q, const JointVector& dq, const Joint
     torque[i] = tau[i] - carried_torque(chain_.friction[i], dq[i], tau[i] - torque[i]);
 }
 
-void FastDynamics::acceleration(const JointVector& q, const JointVector& dq, const JointVector& tau,
-                                JointVector& ddq, unsigned locked) const {
-  JointMatrix inertia;
-  JointVector bias, lost;
-  inertia_and_bias(q, dq, inertia, bias);
-  drag(q, dq, tau, lost);
-  ddq.resize(joints_);
-  for (int i = 0; i < joints_; ++i) ddq[i] = tau[i] - bias[i] - lost[i];
-  solve_small(joints_, inertia.data(), ddq.data(), locked);
+FastDynamics::BodiesAt FastDynamics::bodies_at(const JointVector& q, const JointVector& dq,
+                                               unsigned locked) const {
+  BodiesAt out;
+  inertia_and_bias(q, dq, out.factor, out.bias);
+  factor_small(joints_, out.factor.data(), locked);
+  out.locked = locked;
+  return out;
 }
 
-void solve_small(int n, double* a, double* b, unsigned fixed) {
+void FastDynamics::acceleration(const BodiesAt& bodies, const JointVector& q, const JointVector& dq,
+                                const JointVector& tau, JointVector& ddq) const {
+  JointVector lost;
+  drag(q, dq, tau, lost);
+  ddq.resize(joints_);
+  for (int i = 0; i < joints_; ++i) ddq[i] = tau[i] - bodies.bias[i] - lost[i];
+  solve_factored(joints_, bodies.factor.data(), ddq.data(), bodies.locked);
+}
+
+void factor_small(int n, double* a, unsigned fixed) {
   for (int j = 0; j < n; ++j) {
     if (fixed >> j & 1u) {
       for (int i = 0; i < n; ++i) a[i * n + j] = a[j * n + i] = 0.0;
       a[j * n + j] = 1.0;
-      b[j] = 0.0;
     }
   }
-  for (int j = 0; j < n; ++j) {  // forward: unit lower factor in the columns, D on the diagonal
+  for (int j = 0; j < n; ++j) {  // the unit lower factor times D in the columns, D on the diagonal
     const double inverse = 1.0 / a[j * n + j];
     for (int i = j + 1; i < n; ++i) {
       const double factor = a[j * n + i] * inverse;
       if (factor == 0.0) continue;
       for (int k = i; k < n; ++k) a[i * n + k] -= factor * a[j * n + k];
-      b[i] -= factor * b[j];
     }
+  }
+}
+
+void solve_factored(int n, const double* a, double* b, unsigned fixed) {
+  for (int j = 0; j < n; ++j)
+    if (fixed >> j & 1u) b[j] = 0.0;
+  for (int j = 0; j < n; ++j) {
+    const double inverse = 1.0 / a[j * n + j];
+    for (int i = j + 1; i < n; ++i) b[i] -= a[j * n + i] * inverse * b[j];
   }
   for (int j = n - 1; j >= 0; --j) {
     double sum = b[j];

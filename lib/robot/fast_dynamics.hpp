@@ -52,10 +52,22 @@ class FastDynamics {
   void friction(const JointVector& dq, JointVector& torque) const;
   /// Torque that a drive torque `tau` loses before it moves bodies: friction, load friction, ripples.
   void drag(const JointVector& q, const JointVector& dq, const JointVector& tau, JointVector& torque) const;
-  /// ddq = M^-1 (tau - drag - h - G). Joints whose bit is set in `locked` (bit 0 is the first joint) do not
-  /// accelerate.
+  /// The rigid bodies at one position and velocity.
+  struct BodiesAt {
+    JointMatrix factor;   ///< of M(q), see factor_small()
+    JointVector bias;     ///< h(q, dq) + G(q)
+    unsigned locked = 0;  ///< joints that do not accelerate; bit 0 is the first joint
+  };
+  BodiesAt bodies_at(const JointVector& q, const JointVector& dq, unsigned locked = 0) const;
+  /// ddq = M^-1 (tau - drag - h - G): the drag at `q` and `dq`, M and h + G as in `bodies`, which may be
+  /// those of a state nearby.
+  void acceleration(const BodiesAt& bodies, const JointVector& q, const JointVector& dq,
+                    const JointVector& tau, JointVector& ddq) const;
+  /// The same with the bodies at `q` and `dq`.
   void acceleration(const JointVector& q, const JointVector& dq, const JointVector& tau, JointVector& ddq,
-                    unsigned locked = 0) const;
+                    unsigned locked = 0) const {
+    acceleration(bodies_at(q, dq, locked), q, dq, tau, ddq);
+  }
 
  private:
   template <typename T>
@@ -97,8 +109,12 @@ class FastDynamics {
   Bodies bodies_{};
 };
 
-/// Solves a x = b for a symmetric positive definite n x n matrix (column-major, overwritten) by LDL^T; x
-/// overwrites b. Excludes the rows whose bit is set in `fixed`; their x is 0.
-void solve_small(int n, double* a, double* b, unsigned fixed = 0);
+/// Replaces a symmetric positive definite n x n matrix (column-major) by its factors L D in the lower
+/// columns, with D on the diagonal. Excludes the rows whose bit is set in `fixed`.
+void factor_small(int n, double* a, unsigned fixed = 0);
+
+/// Solves with the factors of factor_small() for the right side `b`, which x overwrites; x is 0 in the rows
+/// of `fixed`.
+void solve_factored(int n, const double* a, double* b, unsigned fixed = 0);
 
 }  // namespace faultline

@@ -26,6 +26,11 @@ constexpr double kVibrationTimesStep = 0.25;
 /// Highest number of sub-steps in max_step_s that stiff friction may require.
 constexpr double kMostSubSteps = 10.0;
 
+/// Longest time, s, for which the bodies are those at its middle while stiff friction changes the velocities.
+constexpr double kHeldBodies = 1e-3;
+/// Sub-steps in that time above which holding the bodies costs less than moving them along.
+constexpr double kHoldingPays = 3.0;
+
 /// Returns the largest diagonal of M^-1 for each joint over some postures.
 JointVector mobility(const FastDynamics& dynamics) {
   const int n = dynamics.joints();
@@ -48,6 +53,21 @@ JointVector usual_torque(const Chain& chain) {
   const JointVector zero = JointVector::Zero(chain.joints());
   const JointVector weight = rigid_body_torque(chain, zero, zero, zero, chain.gravity);
   return 10.0 * inertia_matrix(chain, zero).diagonal() + weight.cwiseAbs();
+}
+
+/// Advances a state by `length` seconds in sub-steps of at most `longest`. `acceleration(q, dq, ddq)` writes
+/// the acceleration.
+template <typename Vector, typename Acceleration>
+void sub_steps(double length, double longest, const Acceleration& acceleration, Vector& q, Vector& dq) {
+  const double count = std::max(1.0, std::ceil(length / longest - 1e-9));
+  Vector a1(q.size());
+  for (int k = 0; k < static_cast<int>(count); ++k) {
+    acceleration(q, dq, a1);
+    runge_kutta_step(
+        length / count, a1,
+        [&](double, const Vector& at, const Vector& rate, Vector& out) { acceleration(at, rate, out); }, q,
+        dq);
+  }
 }
 
 }  // namespace
@@ -154,7 +174,9 @@ void Plant::impact(unsigned newly_locked) {
     JointVector bias;
     dynamics_.inertia_and_bias(q, dq, inertia, bias);
     JointVector momenta = inertia * dq;
-    solve_small(n, inertia.data(), momenta.data(), locked_ & ~springs());
+    const unsigned fixed = locked_ & ~springs();
+    factor_small(n, inertia.data(), fixed);
+    solve_factored(n, inertia.data(), momenta.data(), fixed);
     dq = momenta;
   }
   for (int i = 0; geared_ && i < n; ++i)
@@ -179,7 +201,7 @@ double Plant::safe_step(const JointVector& rate, const JointVector& ddq) const {
 void Plant::advance(double from, double to, const JointVector& tau) {
   extra_friction_.set_time(0.5 * (from + to));
   const auto move_on = [&](double length) {
-    return geared_ ? integrate_geared(length, tau) : integrate(length, tau);
+    return geared_ ? integrate_geared(length, tau) : integrate_rigid(length, tau);
   };
   double now = from;
   while (next_change_ < changes_.size() && changes_[next_change_] <= to) {
@@ -199,10 +221,10 @@ double Plant::stop_torque(int joint, double at, double rate) const {
   return high ? std::max(push, 0.0) : std::min(push, 0.0);
 }
 
-void Plant::accelerate(const JointVector& at, const JointVector& rate, const JointVector& tau,
-                       JointVector& out) const {
+void Plant::accelerate(const Bodies& bodies, const JointVector& at, const JointVector& rate,
+                       const JointVector& tau, JointVector& out) const {
   const bool stops = stop_low_.size() > 0, extra = extra_friction_.any();
-  if (!altered_ && !stops && !extra) return dynamics_.acceleration(at, rate, tau, out);
+  if (!altered_ && !stops && !extra) return dynamics_.acceleration(bodies, at, rate, tau, out);
   const int n = dynamics_.joints();
   JointVector net(n);
   for (int i = 0; i < n; ++i) {
@@ -210,20 +232,50 @@ void Plant::accelerate(const JointVector& at, const JointVector& rate, const Joi
     if (extra) net[i] -= extra_friction_.torque(i, rate[i], dynamics_.chain().friction[i]);
     if (stops && is_beyond_stop(i, at[i])) net[i] -= stop_torque(i, at[i], rate[i]);
   }
-  dynamics_.acceleration(at, rate, net, out, locked_);
+  dynamics_.acceleration(bodies, at, rate, net, out);
 }
 
-void Plant::integrate(double length, const JointVector& tau) {
-  const auto acceleration = [&](double, const JointVector& at, const JointVector& rate, JointVector& out) {
-    accelerate(at, rate, tau, out);
-  };
-  JointVector a1(dq.size());
+template <typename Vector, typename BodiesOf, typename Acceleration>
+void Plant::integrate(double length, const BodiesOf& bodies_of, const Acceleration& acceleration, Vector& at,
+                      Vector& rate) const {
+  const auto n = q.size();
+  Vector a1(at.size());
   while (length > 1e-12) {
-    accelerate(q, dq, tau, a1);
-    const double h = length / std::max(1.0, std::ceil(length / safe_step(dq, a1) - 1e-9));
-    runge_kutta_step(h, a1, acceleration, q, dq);
-    length -= h;
+    const Bodies here = bodies_of(at, rate);
+    acceleration(here, at, rate, a1);
+    const double longest = safe_step(rate.tail(n), a1.tail(n));
+    const double held =
+        length / std::max(1.0, std::ceil(length / std::min(sliding_step_, kHeldBodies) - 1e-9));
+    if (held > kHoldingPays * longest) {
+      const auto with = [&](const Bodies& bodies) {
+        return [&](const Vector& x, const Vector& v, Vector& out) { acceleration(bodies, x, v, out); };
+      };
+      Vector middle = at, middle_rate = rate;
+      sub_steps(0.5 * held, longest, with(here), middle, middle_rate);
+      const Bodies between = bodies_of(middle, middle_rate);
+      sub_steps(held, longest, with(between), at, rate);
+      length -= held;
+    } else {
+      const double h = length / std::max(1.0, std::ceil(length / longest - 1e-9));
+      runge_kutta_step(
+          h, a1,
+          [&](double, const Vector& x, const Vector& v, Vector& out) {
+            acceleration(bodies_of(x, v), x, v, out);
+          },
+          at, rate);
+      length -= h;
+    }
   }
+}
+
+void Plant::integrate_rigid(double length, const JointVector& tau) {
+  integrate(
+      length,
+      [&](const JointVector& at, const JointVector& rate) { return dynamics_.bodies_at(at, rate, locked_); },
+      [&](const Bodies& bodies, const JointVector& at, const JointVector& rate, JointVector& out) {
+        accelerate(bodies, at, rate, tau, out);
+      },
+      q, dq);
 }
 
 void Plant::start(const JointVector& position, const JointVector& speed) {
@@ -244,8 +296,8 @@ void Plant::start(const JointVector& position, const JointVector& speed) {
 
 /// A joint with a spring: J th'' = acting torque - drag - gear torque for its motor, and the gear torque
 /// drives its link. A rigid joint: as without gears; its motor moves with its link.
-void Plant::accelerate_geared(const BothSides& at, const BothSides& rate, const JointVector& tau,
-                              BothSides& out) const {
+void Plant::accelerate_geared(const Bodies& bodies, const BothSides& at, const BothSides& rate,
+                              const JointVector& tau, BothSides& out) const {
   const int n = dynamics_.joints();
   const Gears& gears = geared_->gears;
   const JointVector link = at.head(n), link_rate = rate.head(n), motor = at.tail(n),
@@ -263,7 +315,7 @@ void Plant::accelerate_geared(const BothSides& at, const BothSides& rate, const 
     if (stop_low_.size() > 0 && is_beyond_stop(i, link[i])) net[i] -= stop_torque(i, link[i], link_rate[i]);
     if (spring) out[n + i] = locked_ >> i & 1u ? 0.0 : (arrives[i] - drag[i] - gear) / gears.motor_inertia(i);
   }
-  dynamics_.acceleration(link, link_rate, net, ddq, locked_ & ~springs());
+  dynamics_.acceleration(bodies, link, link_rate, net, ddq);
   out.head(n) = ddq;
   for (int i = 0; i < n; ++i)
     if (!gears.has_spring(i)) out[n + i] = ddq[i];
@@ -271,18 +323,18 @@ void Plant::accelerate_geared(const BothSides& at, const BothSides& rate, const 
 
 void Plant::integrate_geared(double length, const JointVector& tau) {
   const auto n = q.size();
-  const auto acceleration = [&](double, const BothSides& at, const BothSides& rate, BothSides& out) {
-    accelerate_geared(at, rate, tau, out);
-  };
-  BothSides at(2 * n), rate(2 * n), a1(2 * n);
+  BothSides at(2 * n), rate(2 * n);
   at << q, geared_->q;
   rate << dq, geared_->dq;
-  while (length > 1e-12) {
-    accelerate_geared(at, rate, tau, a1);
-    const double h = length / std::max(1.0, std::ceil(length / safe_step(rate.tail(n), a1.tail(n)) - 1e-9));
-    runge_kutta_step(h, a1, acceleration, at, rate);
-    length -= h;
-  }
+  integrate(
+      length,
+      [&](const BothSides& x, const BothSides& v) {
+        return dynamics_.bodies_at(x.head(n), v.head(n), locked_ & ~springs());
+      },
+      [&](const Bodies& bodies, const BothSides& x, const BothSides& v, BothSides& out) {
+        accelerate_geared(bodies, x, v, tau, out);
+      },
+      at, rate);
   q = at.head(n);
   dq = rate.head(n);
   geared_->q = at.tail(n);

@@ -54,6 +54,7 @@ class Plant {
     FastDynamics drives;  ///< the whole chain; used for the friction and ripple of the motors
     JointVector q{}, dq{};
   };
+  using Bodies = FastDynamics::BodiesAt;
   /// Positions or velocities of the links, followed by those of the motors.
   using BothSides = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMaxJoints, 1>;
 
@@ -62,12 +63,18 @@ class Plant {
   void choose_steps(Chain& chain);
   double safe_step(const JointVector& rate, const JointVector& ddq) const;
   void impact(unsigned newly_locked);
-  void integrate(double length, const JointVector& tau);
-  void accelerate(const JointVector& at, const JointVector& rate, const JointVector& tau,
-                  JointVector& out) const;
+  /// Advances the state `at`, `rate` by `length` seconds, the links alone or both sides: `bodies_of(at,
+  /// rate)` returns the bodies, `acceleration(bodies, at, rate, out)` writes the acceleration. Where friction
+  /// requires short steps, the bodies move in longer ones.
+  template <typename Vector, typename BodiesOf, typename Acceleration>
+  void integrate(double length, const BodiesOf& bodies_of, const Acceleration& acceleration, Vector& at,
+                 Vector& rate) const;
+  void integrate_rigid(double length, const JointVector& tau);
+  void accelerate(const Bodies& bodies, const JointVector& at, const JointVector& rate,
+                  const JointVector& tau, JointVector& out) const;
   void integrate_geared(double length, const JointVector& tau);
-  void accelerate_geared(const BothSides& at, const BothSides& rate, const JointVector& tau,
-                         BothSides& out) const;
+  void accelerate_geared(const Bodies& bodies, const BothSides& at, const BothSides& rate,
+                         const JointVector& tau, BothSides& out) const;
   bool is_beyond_stop(int joint, double at) const { return at > stop_high_[joint] || at < stop_low_[joint]; }
   double stop_torque(int joint, double at, double rate) const;
   unsigned springs() const { return geared_ ? geared_->gears.springs() : 0u; }

@@ -89,7 +89,8 @@ void MotionLaw::acceleration_and_slopes(const JointVector& q, const JointVector&
   dynamics_.drag(q, dq, acting, lost);
   ddq = acting - bias - lost;
   JointMatrix factor = inertia;
-  solve_small(n, factor.data(), ddq.data(), locked_);
+  factor_small(n, factor.data(), locked_);
+  solve_factored(n, factor.data(), ddq.data(), locked_);
   const JointVector torque = bias + inertia.lazyProduct(ddq);
   JointVector moved = q;
   for (int j = 0; j < n; ++j) {
@@ -124,9 +125,8 @@ void MotionLaw::acceleration_and_slopes(const JointVector& q, const JointVector&
   out.inverse.setZero(n, n);
   for (int i = 0; i < n; ++i) {
     if (is_locked(i)) continue;
-    JointMatrix copy = inertia;
     JointVector column = JointVector::Unit(n, i);
-    solve_small(n, copy.data(), column.data(), locked_);
+    solve_factored(n, factor.data(), column.data(), locked_);
     out.inverse.col(i) = column;
   }
   out.by_state = out.inverse.lazyProduct(by_state);
