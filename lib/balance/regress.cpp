@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "lib/balance/regress.hpp"
 
+#include <Eigen/Cholesky>
+
 #include "lib/core/elementary/elementary.hpp"
 
 namespace faultline {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rows) {
+NormalEquations normal_equations(const MatrixXd& columns, const VectorXd& rows) {
   NormalEquations out;
   out.matrix.setZero(columns.cols(), columns.cols());
   out.matrix.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
@@ -18,26 +21,42 @@ NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::Ve
   return out;
 }
 
-Eigen::MatrixXd Regression::covariance() const {
-  return factor.solve(Eigen::MatrixXd::Identity(estimate.size(), estimate.size()));
+MatrixXd Regression::covariance() const { return covariance(0, estimate.size()); }
+
+MatrixXd Regression::covariance(Eigen::Index first, Eigen::Index count) const {
+  MatrixXd half = MatrixXd::Identity(estimate.size(), estimate.size()).middleCols(first, count);
+  factor.triangularView<Eigen::Lower>().solveInPlace(half);
+  return half.transpose() * half;
 }
 
-Eigen::MatrixXd Regression::covariance(Eigen::Index first, Eigen::Index count) const {
-  Eigen::MatrixXd out(count, count);
-  for (Eigen::Index k = 0; k < count; ++k)
-    out.col(k) = factor.solve(Eigen::VectorXd::Unit(estimate.size(), first + k)).segment(first, count);
+VectorXd Regression::std() const { return covariance().diagonal().cwiseSqrt(); }
+
+MatrixXd posterior_factor(const MatrixXd& square, const VectorXd& precision, const MatrixXd& leading) {
+  const Eigen::Index all = square.rows(), known = leading.rows(), rest = all - known;
+  MatrixXd out(all, all);
+  out.topLeftCorner(known, known) = leading;
+  out.topRightCorner(known, rest).setZero();
+  if (rest == 0) return out;
+  MatrixXd across = square.topRightCorner(known, rest), last = square.bottomRightCorner(rest, rest);
+  last.diagonal() += precision.tail(rest);
+  if (known > 0) {
+    leading.triangularView<Eigen::Lower>().solveInPlace(across);
+    last.noalias() -= across.transpose() * across;
+  }
+  out.bottomLeftCorner(rest, known) = across.transpose();
+  out.bottomRightCorner(rest, rest) = last.llt().matrixL();
   return out;
 }
 
-Regression regress(const NormalEquations& sums, const Eigen::VectorXd& precision) {
+Regression regress(const NormalEquations& sums, const VectorXd& precision, const MatrixXd& leading) {
   Regression out;
-  Eigen::MatrixXd posterior = sums.matrix;
-  posterior.diagonal() += precision;
-  out.factor.compute(posterior);
-  out.estimate = out.factor.solve(sums.vector);
+  out.factor = posterior_factor(sums.matrix, precision, leading);
+  out.estimate = sums.vector;
+  out.factor.triangularView<Eigen::Lower>().solveInPlace(out.estimate);
+  out.factor.triangularView<Eigen::Lower>().transpose().solveInPlace(out.estimate);
   double log_determinant = 0.0;  // of half the ratio of the prior's and the posterior's precision
   for (int i = 0; i < precision.size(); ++i)
-    log_determinant += 0.5 * elementary::log(precision[i]) - elementary::log(out.factor.matrixLLT()(i, i));
+    log_determinant += 0.5 * elementary::log(precision[i]) - elementary::log(out.factor(i, i));
   const double explained = out.estimate.dot(sums.vector);
   out.left = sums.square - 2.0 * explained + out.estimate.dot(sums.matrix * out.estimate);
   out.log_likelihood = -0.5 * (sums.square - explained) + log_determinant;

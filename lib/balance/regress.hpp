@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <vector>
 
@@ -21,18 +20,28 @@ NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::Ve
 /// Bishop 2006, section 3.5).
 struct Regression {
   Eigen::VectorXd estimate;
-  Eigen::LLT<Eigen::MatrixXd> factor;  ///< of the posterior's inverse covariance
+  Eigen::MatrixXd factor;  ///< posterior_factor()
   /// ln p(rows) without -rows / 2 ln(2 pi), parameters integrated out: the evidence for these columns.
   double log_likelihood = 0.0;
   double left = 0.0;  ///< sum of squared residuals, without the prior's term
 
   Eigen::MatrixXd covariance() const;
+  /// Returns the standard deviation of each parameter.
+  Eigen::VectorXd std() const;
   /// Returns the covariance of the parameters `first` to `first` + `count` - 1.
   Eigen::MatrixXd covariance(Eigen::Index first, Eigen::Index count) const;
 };
 
+/// Returns the lower Cholesky factor of the posterior's inverse covariance X' X + diag(precision). `leading`
+/// is the factor of its leading block, if known: regressions that share their first columns then cost
+/// columns^2 instead of columns^3 operations.
+Eigen::MatrixXd posterior_factor(const Eigen::MatrixXd& square, const Eigen::VectorXd& precision,
+                                 const Eigen::MatrixXd& leading = {});
+
 /// Solves the regression. `precision` is the inverse prior variance of each parameter; all are above 0.
-Regression regress(const NormalEquations& sums, const Eigen::VectorXd& precision);
+/// `leading`: as for posterior_factor().
+Regression regress(const NormalEquations& sums, const Eigen::VectorXd& precision,
+                   const Eigen::MatrixXd& leading = {});
 
 /// Regression of regress() while its rows arrive one after the other: the estimate after each row costs
 /// columns^2 operations instead of columns^3 (recursive least squares; Plackett 1950).

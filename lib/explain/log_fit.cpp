@@ -246,6 +246,7 @@ void LogFit::loosen_halts() {
 void LogFit::whiten_effects() {
   white_effects_ = effects_.whitened(std_, noise_);
   effect_square_ = white_effects_.square();
+  effect_factor_ = posterior_factor(effect_square_, effect_variance_.cwiseInverse());
   before_.clear();
 }
 

@@ -111,11 +111,12 @@ class LogFit {
   /// Common part of all paths of the work piece.
   struct Prepared {
     Stacked white;             ///< whitened residual; 0 for dropped rows
-    StackedColumns column;     ///< of the hypothesis, whitened
+    StackedColumns column{};   ///< of the hypothesis, whitened
     Eigen::VectorXd variance;  ///< of their sizes
     StackedMask dropped;       ///< empty if no row is
     int lost = 0;              ///< number of dropped rows
-    Eigen::MatrixXd square;    ///< X' X of the effects, then of the columns
+    Eigen::MatrixXd square{};  ///< X' X of the effects, then of the columns
+    Eigen::MatrixXd factor{};  ///< posterior_factor() of them
   };
 
   Prepared prepared(const Stacked& residual, const FaultColumns& columns, const StackedMask& dropped) const;
@@ -148,6 +149,7 @@ class LogFit {
   std::vector<Eigen::VectorXd> end_levels_;  ///< of a work piece that changes beside the first or last row
   Eigen::MatrixXd effect_square_;            ///< X' X of the whitened effects
   Eigen::VectorXd effect_variance_;
+  Eigen::MatrixXd effect_factor_;  ///< posterior_factor() of the effects
   PiecePath first_path_;
   Explanation healthy_;
   mutable std::vector<std::pair<int, Eigen::VectorXd>> before_;

@@ -43,8 +43,8 @@ double product(const WhitePulse& a, const WhitePulse& b) {
 /// Returns the regression with each of the first `bounded` parameters within kMostOfDay prior standard
 /// deviations: those beyond it are held at the bound. A large fault of slightly another form than its
 /// hypothesis would bend the effects of the day to what no day is.
-Regression regress_within(NormalEquations sums, VectorXd precision, int bounded) {
-  Regression fit = regress(sums, precision);
+Regression regress_within(NormalEquations sums, VectorXd precision, int bounded, const MatrixXd& leading) {
+  Regression fit = regress(sums, precision, leading);
   VectorXd held = VectorXd::Zero(precision.size());
   double price = 0.0;
   for (bool is_within = false; !is_within;) {
@@ -59,7 +59,7 @@ Regression regress_within(NormalEquations sums, VectorXd precision, int bounded)
       precision[i] *= kHeld;
       price += 0.5 * kMostOfDay * kMostOfDay;
     }
-    if (!is_within) fit = regress(sums, precision);
+    if (!is_within) fit = regress(sums, precision);  // another leading block
   }
   fit.estimate += held;
   fit.log_likelihood -= price;
@@ -76,7 +76,7 @@ void take_away(const WhitePulse& pulse, double size, Stacked& rows) {
 
 LogFit::Prepared LogFit::prepared(const Stacked& residual, const FaultColumns& columns,
                                   const StackedMask& dropped) const {
-  Prepared out{whitened(residual), {}, columns.variance, dropped, 0, {}};
+  Prepared out{.white = whitened(residual), .variance = columns.variance, .dropped = dropped};
   if (columns.column.rows() > 0)
     out.column = whitened(columns.column);
   else
@@ -94,6 +94,9 @@ LogFit::Prepared LogFit::prepared(const Stacked& residual, const FaultColumns& c
   out.square.topRightCorner(effects, sizes) = white_effects_.along(out.column);
   out.square.bottomLeftCorner(sizes, effects) = out.square.topRightCorner(effects, sizes).transpose();
   out.square.bottomRightCorner(sizes, sizes) = out.column.transpose() * out.column;
+  VectorXd precision(effects + sizes);
+  precision << effect_variance_.cwiseInverse(), columns.variance.cwiseInverse();
+  out.factor = posterior_factor(out.square, precision, out.lost > 0 ? MatrixXd() : effect_factor_);
   return out;
 }
 
@@ -128,14 +131,12 @@ Explanation LogFit::regressed(const Prepared& h, const PieceRamps& ramps) const 
     for (int d = 0; d <= c; ++d) sums.matrix(fixed + d, fixed + c) = product(pulse, pulses[d]);
     sums.matrix.row(fixed + c).head(fixed + c) = sums.matrix.col(fixed + c).head(fixed + c).transpose();
   }
-  const Regression fit =
-      regress_within(std::move(sums), std::move(precision), static_cast<int>(model_.day_variance.size()));
+  const Regression fit = regress_within(std::move(sums), std::move(precision),
+                                        static_cast<int>(model_.day_variance.size()), h.factor);
   out.day = fit.estimate.head(effects);
   out.size = fit.estimate.segment(effects, sizes);
-  const auto std_of = [&](int k) { return std::sqrt(fit.factor.solve(VectorXd::Unit(all, k))[k]); };
   out.size_covariance = fit.covariance(effects, sizes);
-  if (sizes == 0) out.day_std.resize(effects);
-  for (int k = 0; k < out.day_std.size(); ++k) out.day_std[k] = std_of(k);
+  if (sizes == 0) out.day_std = fit.std().head(effects);
   out.later_s = -fit.estimate.segment(fixed, ramps.change.cols());
   out.log_likelihood =
       fit.log_likelihood - 0.5 * h.lost - kChangeOfPiece * static_cast<double>(ramps.change.cols());

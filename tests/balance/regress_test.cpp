@@ -50,6 +50,22 @@ TEST(Regress, EstimateAndCovarianceAreThoseOfThePosterior) {
   EXPECT_NEAR(r.left, (p.rows - p.columns * r.estimate).squaredNorm(), 1e-9);
 }
 
+TEST(Regress, AKnownFactorOfTheFirstColumnsChangesNothing) {
+  const Problem p = drawn_problem();
+  const NormalEquations sums = normal_equations(p.columns, p.rows);
+  const Regression whole = regress(sums, p.precision);
+  for (const int known : {1, 2, 3}) {
+    const Eigen::MatrixXd leading =
+        posterior_factor(sums.matrix.topLeftCorner(known, known), p.precision.head(known));
+    const Regression r = regress(sums, p.precision, leading);
+    EXPECT_LT((r.estimate - whole.estimate).norm(), 1e-12) << known;
+    EXPECT_LT((r.covariance() - whole.covariance()).norm(), 1e-12) << known;
+    EXPECT_NEAR(r.log_likelihood, whole.log_likelihood, 1e-9) << known;
+  }
+  EXPECT_LT((whole.std() - whole.covariance().diagonal().cwiseSqrt()).norm(), 1e-12);
+  EXPECT_LT((whole.covariance(1, 2) - whole.covariance().block(1, 1, 2, 2)).norm(), 1e-12);
+}
+
 TEST(Regress, AColumnThatExplainsNothingLowersTheLikelihood) {
   const Problem p = drawn_problem();
   Eigen::MatrixXd more(40, 4);
