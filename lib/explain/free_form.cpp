@@ -19,6 +19,8 @@ using Eigen::VectorXd;
 /// Nats of a row and joint that nothing explains: that of 1.7 standard deviations.
 constexpr double kFreeRowCost = 1.5;
 
+constexpr int kRowsOfGrid = 8;  // between two rows after which a change is looked for first
+
 /// Returns the nats of each row, by joint as the rows before the change explain them, or as if each row of
 /// the change had a torque of its own of usual size for the joint, whichever is less.
 VectorXd row_costs(const LogFit& fit, const FreeForm& change) {
@@ -57,14 +59,6 @@ std::vector<NormalEquations> no_rows(const EffectColumns& effects) {
   return out;
 }
 
-/// Adds a row, with the columns of the effects that reach it.
-void add_row(const Eigen::Ref<const VectorXd>& some, double white, NormalEquations& sums) {
-  sums.matrix.noalias() += some * some.transpose();
-  sums.vector += white * some;
-  sums.square += white * white;
-  sums.rows += 1.0;
-}
-
 /// Returns the sum of squared residuals of the rows with these effects of the day.
 double squared_residual(const NormalEquations& sums, const VectorXd& day) {
   return sums.square - 2.0 * day.dot(sums.vector) + day.dot(sums.matrix * day);
@@ -86,41 +80,119 @@ double cost_of_joint(const NormalEquations& all, const NormalEquations& before, 
 /// Joints whose rows a change may free.
 enum class ChangeOf { all_joints, some_joints };
 
-/// Returns the change of least cost: after it each row costs kFreeRowCost, of all joints, or only of those
-/// joints whose rows would cost more if they were explained as before it.
-Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
-  const int rows = fit.count(), n = fit.joints();
-  const EffectColumns& white_effects = fit.white_effects();
-  std::vector<MatrixXd> effects;  // by joint, reach x rows
-  for (int j = 0; j < n; ++j) effects.emplace_back(white_effects.column(j).transpose());
-  const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
-  const auto counts = [&](int k) { return changes.empty() || !changes[k]; };
-  const VectorXd precision = fit.effect_variance().cwiseInverse();
-  std::vector<NormalEquations> all = no_rows(white_effects), before = all;
-  RecursiveRegression day(precision);
-  if (of == ChangeOf::some_joints)
-    for (int k = 0; k < rows; ++k)
-      for (int j = 0; j < n && counts(k); ++j) add_row(effects[j].col(k), white[j * rows + k], all[j]);
-  const int first = first_onset_row(fit);
-  double least = std::numeric_limits<double>::infinity();
-  Change best{first, 0.0, VectorXd::Zero(precision.size())};
-  for (int k = 0; k + kTail < rows; ++k) {
-    for (int j = 0; j < n && counts(k); ++j) {
-      const int row = j * rows + k;
-      day.add(effects[j].col(k), white_effects.reach(j), white[row]);
-      if (of == ChangeOf::some_joints) add_row(effects[j].col(k), white[row], before[j]);
-    }
-    if (k < first) continue;
-    double cost = 0.5 * day.square() + kFreeRowCost * n * (rows - 1 - k);
-    if (of == ChangeOf::some_joints) {
-      cost = 0.5 * precision.dot(day.estimate().cwiseAbs2());
-      for (int j = 0; j < n; ++j)
-        cost += cost_of_joint(all[j], before[j], day.estimate()(white_effects.reach(j)));
-    }
-    if (cost >= least) continue;
-    least = cost;
-    best = {k, 0.0, day.estimate()};
+/// The first rows of a log, as sums by joint, and what a change after them would cost. The whitened residual
+/// is 0 near changes of the work piece, and these rows do not count.
+class RowsBeforeChange {
+ public:
+  RowsBeforeChange(const LogFit& fit, const Stacked& white)
+      : effects_(fit.white_effects()),
+        white_(white),
+        precision_(fit.effect_variance().cwiseInverse()),
+        rows_(fit.count()),
+        counted_(VectorXd::Ones(fit.count())),
+        before_(no_rows(effects_)) {
+    const std::vector<bool> changes = near_change(fit.first_path(), kRowsOfChange);
+    for (int k = 0; k < static_cast<int>(changes.size()); ++k)
+      if (changes[k]) counted_[k] = 0.0;
+    for (int j = 0; j < effects_.joints(); ++j)
+      columns_.emplace_back(effects_.column(j).transpose() * counted_.asDiagonal());
   }
+
+  int rows() const { return rows_; }
+  int joints() const { return effects_.joints(); }
+
+  void restart() {
+    before_ = no_rows(effects_);
+    added_ = 0;
+  }
+
+  /// Adds the rows up to `end`, exclusively.
+  void add(int end) {
+    const int count = end - added_;
+    for (int j = 0; j < joints(); ++j) {
+      const auto columns = columns_[j].middleCols(added_, count);
+      const auto white = white_.segment(j * rows_ + added_, count);
+      before_[j].matrix.noalias() += columns * columns.transpose();
+      before_[j].vector.noalias() += columns * white;
+      before_[j].square += white.squaredNorm();
+      before_[j].rows += counted_.segment(added_, count).sum();
+    }
+    added_ = end;
+  }
+
+  const std::vector<NormalEquations>& sums() const { return before_; }
+
+  /// Returns the effects of the day, estimated from the rows.
+  VectorXd day() const {
+    MatrixXd matrix = precision_.asDiagonal();
+    for (int j = 0; j < joints(); ++j) {
+      const std::vector<int>& reach = effects_.reach(j);
+      for (std::size_t b = 0; b < reach.size(); ++b)
+        for (std::size_t a = 0; a < reach.size(); ++a) matrix(reach[a], reach[b]) += before_[j].matrix(a, b);
+    }
+    return matrix.llt().solve(vector());
+  }
+
+  /// Returns the nats if each later row of every joint costs kFreeRowCost.
+  double cost_of_all(const VectorXd& day, int row) const {
+    double square = -day.dot(vector());
+    for (const NormalEquations& joint : before_) square += joint.square;
+    return 0.5 * square + kFreeRowCost * joints() * (rows_ - 1 - row);
+  }
+
+  /// Returns the nats if later rows cost that only for joints for which it is less than to explain them.
+  double cost_of_some(const VectorXd& day, const std::vector<NormalEquations>& all) const {
+    double cost = 0.5 * precision_.dot(day.cwiseAbs2());
+    for (int j = 0; j < joints(); ++j) cost += cost_of_joint(all[j], before_[j], day(effects_.reach(j)));
+    return cost;
+  }
+
+ private:
+  VectorXd vector() const {
+    VectorXd out = VectorXd::Zero(precision_.size());
+    for (int j = 0; j < joints(); ++j) out(effects_.reach(j)) += before_[j].vector;
+    return out;
+  }
+
+  const EffectColumns& effects_;
+  const Stacked& white_;
+  VectorXd precision_;
+  int rows_;
+  VectorXd counted_;               ///< by row: 1, or 0 near a change of the work piece
+  std::vector<MatrixXd> columns_;  ///< by joint, reach x rows
+  int added_ = 0;
+  std::vector<NormalEquations> before_;  ///< by joint, of the rows that were added
+};
+
+/// Returns the change of least cost: after it each row costs kFreeRowCost, of all joints, or only of those
+/// joints whose rows would cost more if they were explained as before it. Looks at every row of a coarse
+/// grid, and at each row beside the best of them.
+Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
+  RowsBeforeChange before(fit, white);
+  const int rows = before.rows(), first = first_onset_row(fit);
+  std::vector<NormalEquations> all;
+  if (of == ChangeOf::some_joints) {
+    before.add(rows);
+    all = before.sums();
+    before.restart();
+  }
+  double least = std::numeric_limits<double>::infinity();
+  Change best{first, 0.0, VectorXd::Zero(fit.effect_variance().size())};
+  const auto judge = [&](int from, int to, int step) {
+    before.restart();
+    for (int k = from; k < to; k += step) {
+      before.add(k + 1);
+      VectorXd day = before.day();
+      const double cost =
+          of == ChangeOf::some_joints ? before.cost_of_some(day, all) : before.cost_of_all(day, k);
+      if (cost >= least) continue;
+      least = cost;
+      best = {k, 0.0, std::move(day)};
+    }
+  };
+  judge(first, rows - kTail, kRowsOfGrid);
+  judge(std::max(first, best.last_row - kRowsOfGrid + 1), std::min(best.last_row + kRowsOfGrid, rows - kTail),
+        1);
   best.onset_s = fit.time_s()[std::min(best.last_row + 1, rows - 1)];
   return best;
 }
