@@ -115,12 +115,6 @@ void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change,
   }
 }
 
-double best_gain(const JudgedHypotheses& bench) {
-  double best = 0.0;
-  for (const FaultHypothesis& h : bench.judged) best = std::max(best, h.gain);
-  return best;
-}
-
 /// Returns the nats by which a free form explains the log better than the healthy robot.
 double gain_of(const LogFit& fit, const FreeForm& change) {
   double left = 0.0;
@@ -231,7 +225,7 @@ LogExplanation explain_log(const LogFit& fit, double least_evidence) {
   std::vector<FaultHypothesis> top = best_of_each(bench.judged);
   if (top.size() > kRefined) top.resize(kRefined);
   for (const FaultHypothesis& h : top)
-    if (h.gain >= std::max(kWorthRefining, kMayWin * best_gain(bench))) refine(h, bench);
+    if (h.gain >= std::max(kWorthRefining, kMayWin * bench.best_gain())) refine(h, bench);
   out.best = best_of_each(bench.judged);
   if (!out.best.empty()) {
     for (const FaultKind kind : rivals_of(out.best.front())) {

@@ -15,7 +15,8 @@ using Eigen::VectorXd;
 
 constexpr int kSizeRounds = 3;      // rounds that estimate the size of a false reading
 constexpr double kSettled = 0.05;   // share of the size: a round that changes less is the last
-constexpr double kHopeless = -5.0;  // nats below which a false reading without a known size is dropped
+constexpr double kHopeless = -5.0;  // nats below which a size is not settled,
+constexpr double kFarLess = 0.1;    // share of a rival's nats likewise
 
 /// Sizes of a false reading, rad or m; of a drift in each second.
 struct PositionErrorSize {
@@ -32,12 +33,15 @@ PositionErrorSize position_error_size(const LogFit& fit, const FaultClaim& claim
 
 /// Judges a false reading: corrects the trajectory and computes the residual anew, linear in the size between
 /// the last two sizes (the secant method), until the size is settled. A claim without a size starts from
-/// zero.
-FaultHypothesis judge_position_error(const LogFit& fit, FaultClaim claim) {
+/// zero. A hypothesis that explains far less than its rival is left after its first size, or its second one
+/// if the claim has a size, which may be far off.
+FaultHypothesis judge_position_error(const LogFit& fit, FaultClaim claim, double rival) {
   const bool bias = claim.kind == FaultKind::sensor_bias;
   const auto [usual, step] = position_error_size(fit, claim);
   FaultHypothesis best;
   double size = claim.size.size() > 0 ? claim.size[0] : 0.0;
+  const int round_to_leave = size == 0.0 ? 0 : 1;
+  const double enough = std::max(kHopeless, kFarLess * rival);
   // A drift of size zero changes nothing; a jump of size zero still replaces velocities that are computed
   // from the position.
   Stacked at = size == 0.0 && !bias ? fit.residual() : residual_without(fit, claim, size),
@@ -54,7 +58,7 @@ FaultHypothesis judge_position_error(const LogFit& fit, FaultClaim claim) {
     FaultHypothesis h = hypothesis(fit, claim, std::move(e), price);
     h.size = VectorXd::Constant(1, size + change);
     if (h.gain > best.gain) best = std::move(h);
-    if (size == 0.0 && best.gain < kHopeless) break;
+    if (round >= round_to_leave && best.gain < enough) break;
     const bool settled = std::abs(change) < kSettled * std::abs(size);
     const double moved =
         size == 0.0 ? change : std::clamp(change, -0.5 * std::abs(size), 0.5 * std::abs(size));
@@ -71,12 +75,12 @@ FaultHypothesis judge_position_error(const LogFit& fit, FaultClaim claim) {
 
 }  // namespace
 
-FaultHypothesis judge_false_position(const LogFit& fit, FaultClaim claim) {
+FaultHypothesis judge_false_position(const LogFit& fit, FaultClaim claim, double rival) {
   const bool is_one = fit.log().dq.rows() == 0 || !fit.model().setting.measures_velocity(claim.joint - 1);
-  FaultHypothesis best = judge_position_error(fit, claim);
+  FaultHypothesis best = judge_position_error(fit, claim, rival);
   if (claim.velocity_is_true || is_one) return best;
   claim.velocity_is_true = true;
-  FaultHypothesis other = judge_position_error(fit, claim);
+  FaultHypothesis other = judge_position_error(fit, claim, rival);
   return other.gain > best.gain ? other : best;
 }
 

@@ -288,7 +288,7 @@ FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim) {
   return best;
 }
 
-std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim) {
+std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim, double rival) {
   switch (claim.kind) {
     case FaultKind::free_swinging:
     case FaultKind::torque_loss:
@@ -301,7 +301,7 @@ std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim)
       return judge_collision(fit, claim);
     case FaultKind::sensor_bias:
     case FaultKind::sensor_drift:
-      return judge_false_position(fit, claim);
+      return judge_false_position(fit, claim, rival);
     case FaultKind::locked:
     case FaultKind::stuck_encoder:
     case FaultKind::unknown:

@@ -8,13 +8,14 @@
 namespace faultline {
 
 /// Judges a further fault: explains the log with the best sizes and effects and integrates them out.
-/// `claim.size` is the initial size of a sensor fault. Empty if the hypothesis cannot be judged, such as a
-/// lock in the last few rows.
-std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim);
+/// `claim.size` is the initial size of a sensor fault; it is not settled for a hypothesis that explains far
+/// less than another one, by `rival` nats. Empty if the hypothesis cannot be judged, such as a lock in the
+/// last few rows.
+std::optional<FaultHypothesis> judge(const LogFit& fit, const FaultClaim& claim, double rival = 0.0);
 
 /// Judges a false position (FaultKind::sensor_bias or sensor_drift) that the velocity shows, too, or does not
-/// if it is measured independently. `claim.size` is the initial size.
-FaultHypothesis judge_false_position(const LogFit& fit, FaultClaim claim);
+/// if it is measured independently. `claim.size` and `rival` as for judge().
+FaultHypothesis judge_false_position(const LogFit& fit, FaultClaim claim, double rival = 0.0);
 
 /// Returns the columns of a fault that has a size, with the prior variance of its sizes; those of a false
 /// reading are linearised about size zero.

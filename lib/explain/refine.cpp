@@ -89,9 +89,15 @@ std::optional<FaultHypothesis> JudgedHypotheses::go(const FaultClaim& claim) {
   for (const double later_s : {0.0, kLeastFault_s})
     if (fit.is_silent(claim.joint, claim.onset_s + later_s)) return std::nullopt;
   if (is_known(fit, claim)) return std::nullopt;
-  std::optional<FaultHypothesis> h = judge(fit, claim);
+  std::optional<FaultHypothesis> h = judge(fit, claim, best_gain());
   if (h) judged.push_back(*h);
   return h;
+}
+
+double JudgedHypotheses::best_gain() const {
+  double best = 0.0;
+  for (const FaultHypothesis& h : judged) best = std::max(best, h.gain);
+  return best;
 }
 
 std::vector<FaultHypothesis> best_of_each(const std::vector<FaultHypothesis>& all) {

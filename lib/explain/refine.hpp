@@ -17,6 +17,8 @@ struct JudgedHypotheses {
 
   /// Judges a claim. Empty if it cannot be judged, or if a known fault silences its joint or is the same.
   std::optional<FaultHypothesis> go(const FaultClaim& claim);
+  /// Returns the nats of the best one; 0 if none explains more than the healthy robot.
+  double best_gain() const;
 };
 
 /// Returns the best of each kind and joint, best first.
