@@ -9,7 +9,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
-#include "lib/identify/days/fit_days.hpp"
+#include "lib/identify/days/healthy_day.hpp"
 #include "lib/identify/feasible/feasible.hpp"
 
 namespace faultline {

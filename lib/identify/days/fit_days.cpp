@@ -128,7 +128,8 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   m.theta = plain_fit(rows, m.layout(), draft.used, m.torque_rms);
   for (int j = 0; j < m.joints(); ++j)
     draft.used[m.layout().spring(j)] = m.rigid.chain.geometry[j].kind == AxisKind::revolute;
-  for (const ExtraTerm& term : space.extra)
+  draft.extra = space.extra;
+  for (const ExtraTerm& term : draft.extra)
     if (const auto column = column_of(term, m.layout())) draft.used[*column] = true;
   return draft;
 }
@@ -140,6 +141,7 @@ DayDraft with_terms_of_round(DayDraft draft, int round) {
   if (round == kSpringsFrom) draft = with_chosen_springs(std::move(draft));
   if (round >= kSpringsFrom) draft.model = with_compliance(std::move(draft.model));
   draft = with_rotors(std::move(draft), round >= kRotorsFrom);
+  if (round >= kRotorsFrom) draft = without_impossible_terms(std::move(draft));
   if (round <= kRowsUntil) draft = with_rows(std::move(draft));
   return with_day_columns(std::move(draft));
 }
@@ -302,14 +304,6 @@ Eigen::VectorXd prior_of_a_day(const BalanceModel& model, const Eigen::VectorXd&
 }
 
 }  // namespace
-
-std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout) {
-  if (term.kind == ExtraKind::load_friction) return layout.load(term.joint);
-  if (term.kind == ExtraKind::shared_inertia) return layout.drive(term.index);
-  if (term.kind == ExtraKind::shared_viscous) return layout.drive(term.index) + 1;
-  if (term.kind == ExtraKind::shared_coulomb) return layout.drive(term.index) + 2;
-  return std::nullopt;
-}
 
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
                     TorqueTiming torque_between_samples) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,10 +24,6 @@ struct FittedDays {
   std::vector<BalanceModel> without;  ///< by log
   std::vector<PieceTimes> pieces;     ///< by log
 };
-
-/// Returns the column of an extra term of the robot in the rows; none for ripples and springs, for which the
-/// fit of the days looks itself.
-std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout);
 
 /// Estimates the robot, its differences from day to day and the noise of its rows from healthy logs (at least
 /// two, of one rate): a regression with mixed effects, in which the parameters of the robot are free and the

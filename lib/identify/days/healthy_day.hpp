@@ -2,11 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "lib/balance/balance_model.hpp"
 #include "lib/balance/uniform_log.hpp"
 #include "lib/balance/work_piece.hpp"
+#include "lib/identify/extra/extra_term.hpp"
 
 namespace faultline {
 
@@ -27,7 +29,8 @@ struct DayDraft {
   BalanceModel model;
   std::vector<HealthyDay> days;
   std::vector<bool> used;
-  std::vector<bool> refused{};  ///< columns whose estimate was infeasible (a negative rotor inertia)
+  std::vector<bool> refused{};     ///< columns whose estimate was infeasible (a negative rotor inertia)
+  std::vector<ExtraTerm> extra{};  ///< of the robot
 };
 
 /// Computes the rows of all days by the setting of the model.
@@ -68,5 +71,13 @@ DayDraft with_ripples(DayDraft draft);
 
 /// Frees rotors that act apart from the links if `are_looked_for`; one whose estimate is negative stays out.
 DayDraft with_rotors(DayDraft draft, bool are_looked_for);
+
+/// Returns the column of an extra term of the robot in the rows; none for ripples and springs, for which the
+/// fit of the days looks itself.
+std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout);
+
+/// Leaves out the extra terms whose estimate is impossible (is_possible()), such as load friction that takes
+/// more than the gear carries.
+DayDraft without_impossible_terms(DayDraft draft);
 
 }  // namespace faultline

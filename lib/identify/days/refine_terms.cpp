@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "lib/balance/ripples.hpp"
@@ -140,6 +141,22 @@ DayDraft with_rotors(DayDraft draft, bool are_looked_for) {
     if (!is_rotor(m.rigid, p)) continue;
     draft.refused[p] = draft.refused[p] || m.theta[p] < 0.0;
     draft.used[p] = are_looked_for && !draft.refused[p];
+  }
+  return draft;
+}
+
+std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout) {
+  if (term.kind == ExtraKind::load_friction) return layout.load(term.joint);
+  if (term.kind == ExtraKind::shared_inertia) return layout.drive(term.index);
+  if (term.kind == ExtraKind::shared_viscous) return layout.drive(term.index) + 1;
+  if (term.kind == ExtraKind::shared_coulomb) return layout.drive(term.index) + 2;
+  return std::nullopt;
+}
+
+DayDraft without_impossible_terms(DayDraft draft) {
+  for (const ExtraTerm& term : draft.extra) {
+    const std::optional<int> column = column_of(term, draft.model.layout());
+    if (column && !is_possible(term.kind, draft.model.theta[*column])) draft.used[*column] = false;
   }
   return draft;
 }

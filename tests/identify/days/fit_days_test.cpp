@@ -123,6 +123,20 @@ TEST(FitDays, LoadFrictionIsEstimatedWhereTheIdentificationHasIt) {
   EXPECT_NEAR(model.theta[model.layout().load(2)], 0.04, 0.005);
 }
 
+TEST(FitDays, LoadFrictionThatWouldDriveIsLeftOut) {
+  std::vector<Log> days;
+  for (int day = 0; day < 3; ++day) {
+    testing::ClosedFormScara scara = testing::of_day(day);
+    scara.load = {-0.05, 0.0, 0.04};
+    days.push_back(simulate_closed_form(scara, testing::run_of(day + 1)));
+  }
+  Robot robot = testing::scara_robot();
+  robot.chain.friction[0].load = robot.chain.friction[2].load = 0.1;
+  const BalanceModel model = testing::learned_from(days, robot).model;
+  EXPECT_EQ(model.theta[model.layout().load(0)], 0.0);
+  EXPECT_NEAR(model.theta[model.layout().load(2)], 0.04, 0.005);
+}
+
 TEST(FitDays, ACoupledDriveHasItsFriction) {
   std::vector<Log> days;
   for (int day = 0; day < 3; ++day) {
