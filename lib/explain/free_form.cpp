@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 
 /// Nats of a row and joint that nothing explains: that of 1.7 standard deviations.
 constexpr double kFreeRowCost = 1.5;
+constexpr double kOtherEffects = 10.0;  // times their standard deviation: that of effects after a change
 
 constexpr int kRowsOfGrid = 8;  // between two rows after which a change is looked for first
 
@@ -64,17 +65,31 @@ double squared_residual(const NormalEquations& sums, const VectorXd& day) {
   return sums.square - 2.0 * day.dot(sums.vector) + day.dot(sums.matrix * day);
 }
 
+/// Returns the nats of the rows after a change if the effects that reach their joint, have other values than
+/// before it: the marginal likelihood of their regression.
+double cost_by_other_effects(const NormalEquations& all, const NormalEquations& before,
+                             const VectorXd& precision, const VectorXd& day, double variance) {
+  NormalEquations after{(all.matrix - before.matrix) / variance, VectorXd(), 0.0, all.rows - before.rows};
+  const VectorXd vector = all.vector - before.vector;  // less what the effects of the day explain
+  after.vector = (vector - (all.matrix - before.matrix) * day) / variance;
+  after.square = (squared_residual(all, day) - squared_residual(before, day)) / variance;
+  return -regress(after, precision / Eigen::numext::abs2(kOtherEffects)).log_likelihood;
+}
+
 /// Returns the nats of the rows of a joint, by the sums of all of them and of those before the change: as the
-/// change does not reach it, or as it does, whichever is less. `day` are the effects that reach the joint.
-/// The variance of its rows is estimated from those before the change, and at least 1, that of the healthy
-/// logs.
-double cost_of_joint(const NormalEquations& all, const NormalEquations& before, const VectorXd& day) {
+/// change does not reach it, or as it does, by other effects or a torque of its own in each row, whichever is
+/// least. `day` are the effects that reach the joint, of inverse variance `precision`. The variance of its
+/// rows is estimated from those before the change, and at least 1, that of the healthy logs.
+double cost_of_joint(const NormalEquations& all, const NormalEquations& before, const VectorXd& precision,
+                     const VectorXd& day) {
   const double seen = before.rows, rest = all.rows - seen, square = squared_residual(before, day),
                variance = std::max(1.0, (kRowsOfHealthyLogs + square) / (kRowsOfHealthyLogs + seen)),
                row = 0.5 * elementary::log(variance), costs_before = seen * row + 0.5 * square / variance,
                explained = costs_before + rest * row + 0.5 * (squared_residual(all, day) - square) / variance,
-               free = costs_before + rest * (row + kFreeRowCost);
-  return std::min(free, explained);
+               free = costs_before + rest * (row + kFreeRowCost),
+               others =
+                   costs_before + rest * row + cost_by_other_effects(all, before, precision, day, variance);
+  return std::min({free, explained, others});
 }
 
 /// Joints whose rows a change may free.
@@ -143,7 +158,8 @@ class RowsBeforeChange {
   /// Returns the nats if later rows cost that only for joints for which it is less than to explain them.
   double cost_of_some(const VectorXd& day, const std::vector<NormalEquations>& all) const {
     double cost = 0.5 * precision_.dot(day.cwiseAbs2());
-    for (int j = 0; j < joints(); ++j) cost += cost_of_joint(all[j], before_[j], day(effects_.reach(j)));
+    for (int j = 0; j < joints(); ++j)
+      cost += cost_of_joint(all[j], before_[j], precision_(effects_.reach(j)), day(effects_.reach(j)));
     return cost;
   }
 

@@ -45,6 +45,15 @@ TEST(FirstChange, IsWhereOneJointAloneIsExplainedNoLonger) {
   EXPECT_GT(free_form(fit).onset_s, kBegins_s + 1.0);
 }
 
+TEST(FirstChange, IsWhereOtherFrictionExplainsTheRowsOfAJoint) {
+  Log log = simulate_closed_form(ClosedFormScara{}, run_of(21));
+  for (int k = 0; k < log.rows(); ++k)
+    if (log.time[k] > kBegins_s) log.tau[kJoint][k] += 0.05 * std::tanh(log.dq[kJoint][k] / 0.05);
+  const LogFit fit = fit_of(std::move(log));
+  EXPECT_LT(rms_after(fit), 1.7);  // less than rows without explanation cost
+  EXPECT_NEAR(first_change(fit).onset_s, kBegins_s, 0.3);
+}
+
 TEST(FirstChange, IsTheEndOfAHealthyLog) {
   const LogFit fit = fit_of(simulate_closed_form(ClosedFormScara{}, run_of(21)));
   EXPECT_GT(first_change(fit).onset_s, 7.0);
