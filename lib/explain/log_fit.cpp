@@ -23,10 +23,6 @@ constexpr double kCorrectedStd = 0.1;  // share of a false reading's size: its e
 constexpr double kSizeDoubt = 0.05;    // the same of a fault that began before the log
 constexpr int kNoiseRounds = 3;        // rounds that estimate the log's own noise, at most
 
-/// Standard deviations of an effect of the day that a log may have at most, while no row is known to be calm,
-/// and beyond its estimate from the calm rows.
-constexpr double kMostOfDay = 30.0, kBeyondCalmDay = 6.0;
-
 constexpr double kModelShare = 0.004;  // share of each model term: error of the model
 constexpr double kLeastNoiseLevel = 0.3,
                  kMostNoiseLevel = 4.0;  // bounds of the noise, times that of the healthy logs
@@ -86,10 +82,11 @@ MatrixXd row_deviation(const BalanceRows& rows, const BalanceModel& model, const
   return (noise.array().square() + stop.array().square() + kModelShare * kModelShare * terms.array()).sqrt();
 }
 
-/// Estimates the noise of a log from its calm rows, for each joint for which it exceeds that of the healthy
+/// Estimates the noise of a log from its calm_rows(), for each joint for which it exceeds that of the healthy
 /// logs: a robot may have what no healthy log had, such as friction that depends on load, and residuals from
 /// the first row on are no evidence for a fault that begins later.
-RowNoise own_noise(const LogFit& fit, const CalmRows& calm) {
+RowNoise own_noise(const LogFit& fit) {
+  const CalmRows calm = calm_rows(fit);
   RowNoise out = fit.model().noise;
   for (int j = 0; j < fit.joints(); ++j) {
     JointNoise& noise = out.joint[j];
@@ -217,28 +214,15 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
   }
   for (std::size_t i = 0; i < silent_.size(); ++i)
     if (silent_[i]) std_.data()[i] *= kSilent;
-  most_of_day_ = kMostOfDay * model.day_variance.cwiseSqrt();
   whiten_effects();
   settle_healthy();
   loosen_halts();
-  settle_noise(noise.has_value());
-}
-
-/// Estimates the noise of the log, unless it is known, and bounds the effects of the day, both by the calm
-/// rows.
-void LogFit::settle_noise(bool is_known) {
-  const VectorXd usual = model_.day_variance.cwiseSqrt();
-  for (int round = 0; round < kNoiseRounds; ++round) {  // with more noise the change comes later
-    const CalmRows calm = calm_rows(*this);
-    RowNoise own = is_known ? noise_ : own_noise(*this, calm);
-    const bool is_settled = own == noise_;
-    most_of_day_ = calm.day.head(usual.size()).cwiseAbs() + kBeyondCalmDay * usual;
-    const bool is_within = (healthy_.day.head(usual.size()).cwiseAbs().array() <= most_of_day_.array()).all();
-    if (is_settled && is_within) break;
+  for (int round = 0; round < kNoiseRounds && !noise; ++round) {  // with more noise the change comes later
+    RowNoise own = own_noise(*this);
+    if (own == noise_) break;
     noise_ = std::move(own);
-    if (!is_settled) whiten_effects();
+    whiten_effects();
     settle_healthy();
-    if (is_settled) break;
   }
 }
 

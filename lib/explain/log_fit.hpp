@@ -124,7 +124,6 @@ class LogFit {
   void loosen_halts();
   void add_fault(const FaultColumns& columns, const FaultClaim& claim);
   void settle_healthy();
-  void settle_noise(bool is_known);
   void whiten_effects();
   Explanation regressed(const Prepared& hypothesis, const PieceRamps& ramps) const;
   /// Returns the whitened columns of the changes of a path, and of changes before the first and after the
@@ -151,7 +150,6 @@ class LogFit {
   Eigen::MatrixXd effect_square_;            ///< X' X of the whitened effects
   Eigen::VectorXd effect_variance_;
   Eigen::MatrixXd effect_factor_;  ///< posterior_factor() of the effects
-  Eigen::VectorXd most_of_day_;    ///< bound of each effect of the day
   PiecePath first_path_;
   Explanation healthy_;
   mutable std::vector<std::pair<int, Eigen::VectorXd>> before_;

@@ -12,11 +12,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSilentStd = 1e9;  // N m or N: standard deviation of a row without weight
-constexpr double kGravity = 9.81;   // m/s^2: only for the scale of a work piece's weight
-constexpr double kHeld = 1e12;      // times its precision: of an effect that is held at its bound
-constexpr int kBeforeRows = 5;      // rows of onsets that share one estimate of the effects before them
-constexpr int kTimeRounds = 4;      // Newton rounds for the times of the changes, at most
+constexpr double kSilentStd = 1e9;   // N m or N: standard deviation of a row without weight
+constexpr double kGravity = 9.81;    // m/s^2: only for the scale of a work piece's weight
+constexpr double kMostOfDay = 30.0;  // prior standard deviations: bound of an effect of the day
+constexpr double kHeld = 1e12;       // times its precision: of an effect that is held at its bound
+constexpr int kBeforeRows = 5;       // rows of onsets that share one estimate of the effects before them
+constexpr int kTimeRounds = 4;       // Newton rounds for the times of the changes, at most
 constexpr double kSettledTime_rows = 0.1;  // rows: a change that moves less is settled
 constexpr double kFarthest_rows = 1.5;     // rows from the middle between the two rows of a change, at most
 
@@ -39,24 +40,24 @@ double product(const WhitePulse& a, const WhitePulse& b) {
       .sum();
 }
 
-/// Returns the regression with the first parameters within the bounds `most`: those beyond are held at the
-/// bound. A large fault of slightly another form than its hypothesis would bend the effects of the day to
-/// what no day is.
-Regression regress_within(NormalEquations sums, VectorXd precision, const VectorXd& most,
-                          const MatrixXd& leading) {
+/// Returns the regression with each of the first `bounded` parameters within kMostOfDay prior standard
+/// deviations: those beyond it are held at the bound. A large fault of slightly another form than its
+/// hypothesis would bend the effects of the day to what no day is.
+Regression regress_within(NormalEquations sums, VectorXd precision, int bounded, const MatrixXd& leading) {
   Regression fit = regress(sums, precision, leading);
   VectorXd held = VectorXd::Zero(precision.size());
   double price = 0.0;
   for (bool is_within = false; !is_within;) {
     is_within = true;
-    for (int i = 0; i < most.size(); ++i) {
-      if (held[i] != 0.0 || std::abs(fit.estimate[i]) <= most[i]) continue;
+    for (int i = 0; i < bounded; ++i) {
+      const double most = kMostOfDay / std::sqrt(precision[i]);
+      if (held[i] != 0.0 || std::abs(fit.estimate[i]) <= most) continue;
       is_within = false;
-      held[i] = std::copysign(most[i], fit.estimate[i]);
+      held[i] = std::copysign(most, fit.estimate[i]);
       sums.square += held[i] * (held[i] * sums.matrix(i, i) - 2.0 * sums.vector[i]);
       sums.vector -= held[i] * sums.matrix.col(i);
-      price += 0.5 * held[i] * held[i] * precision[i];
       precision[i] *= kHeld;
+      price += 0.5 * kMostOfDay * kMostOfDay;
     }
     if (!is_within) fit = regress(sums, precision);  // another leading block
   }
@@ -130,7 +131,8 @@ Explanation LogFit::regressed(const Prepared& h, const PieceRamps& ramps) const 
     for (int d = 0; d <= c; ++d) sums.matrix(fixed + d, fixed + c) = product(pulse, pulses[d]);
     sums.matrix.row(fixed + c).head(fixed + c) = sums.matrix.col(fixed + c).head(fixed + c).transpose();
   }
-  const Regression fit = regress_within(std::move(sums), std::move(precision), most_of_day_, h.factor);
+  const Regression fit = regress_within(std::move(sums), std::move(precision),
+                                        static_cast<int>(model_.day_variance.size()), h.factor);
   out.day = fit.estimate.head(effects);
   out.size = fit.estimate.segment(effects, sizes);
   out.size_covariance = fit.covariance(effects, sizes);
