@@ -29,7 +29,11 @@ MatrixXd Regression::covariance(Eigen::Index first, Eigen::Index count) const {
   return half.transpose() * half;
 }
 
-VectorXd Regression::std() const { return covariance().diagonal().cwiseSqrt(); }
+VectorXd Regression::std() const {
+  MatrixXd half = MatrixXd::Identity(estimate.size(), estimate.size());
+  factor.triangularView<Eigen::Lower>().solveInPlace(half);
+  return half.colwise().norm().transpose();
+}
 
 MatrixXd posterior_factor(const MatrixXd& square, const VectorXd& precision, const MatrixXd& leading) {
   const Eigen::Index all = square.rows(), known = leading.rows(), rest = all - known;

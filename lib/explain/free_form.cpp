@@ -65,14 +65,15 @@ double squared_residual(const NormalEquations& sums, const VectorXd& day) {
   return sums.square - 2.0 * day.dot(sums.vector) + day.dot(sums.matrix * day);
 }
 
-/// Returns the nats of the rows after a change if the effects that reach their joint, have other values than
-/// before it: the marginal likelihood of their regression.
+/// Returns the nats of the rows after a change if the effects that reach their joint have other values than
+/// before it, `day`: the marginal likelihood of their regression. `variance` is that of a row.
 double cost_by_other_effects(const NormalEquations& all, const NormalEquations& before,
                              const VectorXd& precision, const VectorXd& day, double variance) {
-  NormalEquations after{(all.matrix - before.matrix) / variance, VectorXd(), 0.0, all.rows - before.rows};
-  const VectorXd vector = all.vector - before.vector;  // less what the effects of the day explain
-  after.vector = (vector - (all.matrix - before.matrix) * day) / variance;
-  after.square = (squared_residual(all, day) - squared_residual(before, day)) / variance;
+  const MatrixXd matrix = all.matrix - before.matrix;
+  const VectorXd vector = all.vector - before.vector - matrix * day;  // of what the day leaves
+  const double square = squared_residual(all, day) - squared_residual(before, day);
+  const NormalEquations after{matrix / variance, vector / variance, square / variance,
+                              all.rows - before.rows};
   return -regress(after, precision / Eigen::numext::abs2(kOtherEffects)).log_likelihood;
 }
 

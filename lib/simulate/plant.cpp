@@ -55,6 +55,11 @@ JointVector usual_torque(const Chain& chain) {
   return 10.0 * inertia_matrix(chain, zero).diagonal() + weight.cwiseAbs();
 }
 
+/// Returns the longest of equal parts of `length` that are at most `longest`.
+double equal_part(double length, double longest) {
+  return length / std::max(1.0, std::ceil(length / longest - 1e-9));
+}
+
 /// Advances a state by `length` seconds in sub-steps of at most `longest`. `acceleration(q, dq, ddq)` writes
 /// the acceleration.
 template <typename Vector, typename Acceleration>
@@ -244,8 +249,7 @@ void Plant::integrate(double length, const BodiesOf& bodies_of, const Accelerati
     const Bodies here = bodies_of(at, rate);
     acceleration(here, at, rate, a1);
     const double longest = safe_step(rate.tail(n), a1.tail(n));
-    const double held =
-        length / std::max(1.0, std::ceil(length / std::min(sliding_step_, kHeldBodies) - 1e-9));
+    const double held = equal_part(length, std::min(sliding_step_, kHeldBodies));
     if (held > kHoldingPays * longest) {
       const auto with = [&](const Bodies& bodies) {
         return [&](const Vector& x, const Vector& v, Vector& out) { acceleration(bodies, x, v, out); };
@@ -256,7 +260,7 @@ void Plant::integrate(double length, const BodiesOf& bodies_of, const Accelerati
       sub_steps(held, longest, with(between), at, rate);
       length -= held;
     } else {
-      const double h = length / std::max(1.0, std::ceil(length / longest - 1e-9));
+      const double h = equal_part(length, longest);
       runge_kutta_step(
           h, a1,
           [&](double, const Vector& x, const Vector& v, Vector& out) {
