@@ -15,7 +15,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSilentStd = 1e6;       // times the usual standard deviation: a lost row has no weight
 constexpr double kRare = 50.0;           // times the median square: larger squares are clipped to it
 constexpr double kLeastShare = 0.1;      // least constant part, as a share of the median square
 constexpr double kRidge = 1e-4;          // of the variance, on the diagonal of the autocorrelation
@@ -68,18 +67,72 @@ MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, const RowNo
     share << n.base * loudness[j] * loudness[j], n.torque, n.rest, n.speed, n.timing;
     for (int k = 0; k < rows.rows(); ++k) {
       out(k, j) = std::sqrt(share.dot(variance_terms(rows, setting, k, j)));
-      if (rows.lost[k] || rows.rests(k, j)) out(k, j) *= kSilentStd;
+      if (rows.lost[k] || rows.rests(k, j)) out(k, j) = kNoWeight;
     }
   }
   return out;
 }
 
-MatrixXd whiten(const MatrixXd& columns, const VectorXd& std, const JointNoise& noise) {
-  const MatrixXd scaled = (columns.array().colwise() / (noise.innovation * std.array())).matrix();
-  MatrixXd out = scaled;
+Whitener::Whitener(const VectorXd& std, const JointNoise& noise)
+    : weight_(std.cwiseInverse()), filter_(noise.filter), innovation_(noise.innovation) {
+  const auto order = static_cast<std::size_t>(filter_.size() - 1);
+  const VectorXd first = autocovariance(noise);
+  std::vector<double> covariance(first.begin(), first.end());
+  const auto at = [&](Eigen::Index lag) {  // by the autoregression itself
+    while (lag >= std::ssize(covariance)) {
+      double next = 0.0;
+      for (std::size_t i = 1; i <= order; ++i)
+        next -= filter_[static_cast<Eigen::Index>(i)] * covariance[covariance.size() - i];
+      covariance.push_back(next);
+    }
+    return covariance[static_cast<std::size_t>(lag)];
+  };
+  std::vector<Eigen::Index> before;  // the last rows that have weight, the latest first
+  for (Eigen::Index row = 0; row < weight_.size(); ++row) {
+    const auto known = static_cast<Eigen::Index>(before.size());
+    const bool is_regular = before.size() == order && (order == 0 || before.back() == row - known);
+    if (weight_[row] == 0.0) {
+      exceptions_.push_back({.row = row});
+      continue;
+    }
+    if (!is_regular) {
+      MatrixXd among(known, known);
+      VectorXd with(known);
+      for (Eigen::Index i = 0; i < known; ++i) {
+        with[i] = at(row - before[i]);
+        for (Eigen::Index k = 0; k < known; ++k) among(i, k) = at(std::abs(before[i] - before[k]));
+      }
+      const VectorXd share = among.ldlt().solve(with);
+      Exception other{row, {}, std::sqrt(at(0) - share.dot(with))};
+      for (Eigen::Index i = 0; i < known; ++i) other.predictors.emplace_back(before[i], share[i]);
+      exceptions_.push_back(std::move(other));
+    }
+    before.insert(before.begin(), row);
+    if (before.size() > order) before.pop_back();
+  }
+}
+
+MatrixXd Whitener::of(const MatrixXd& columns, Eigen::Index begin) const {
   const Eigen::Index rows = columns.rows();
-  for (Eigen::Index lag = 1; lag < noise.filter.size() && lag < rows; ++lag)
-    out.bottomRows(rows - lag) += noise.filter[lag] * scaled.topRows(rows - lag);
+  const MatrixXd scaled =
+      (columns.array().colwise() * (weight_.segment(begin, rows).array() / innovation_)).matrix();
+  MatrixXd out = scaled;
+  for (Eigen::Index lag = 1; lag < filter_.size() && lag < rows; ++lag)
+    out.bottomRows(rows - lag) += filter_[lag] * scaled.topRows(rows - lag);
+  for (const Exception& other : exceptions_) {
+    if (other.row < begin || other.row >= begin + rows) continue;
+    auto row = out.row(other.row - begin);
+    row = scaled.row(other.row - begin);
+    for (const auto& [from, share] : other.predictors)
+      if (from >= begin) row -= share * scaled.row(from - begin);
+    row *= innovation_ / other.innovation;
+  }
+  return out;
+}
+
+std::vector<Whitener> whiteners(const MatrixXd& std, const RowNoise& noise) {
+  std::vector<Whitener> out;
+  for (Eigen::Index j = 0; j < std.cols(); ++j) out.emplace_back(std.col(j), noise.joint[j]);
   return out;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "lib/balance/rows.hpp"
@@ -26,14 +28,43 @@ struct RowNoise {
   bool operator==(const RowNoise&) const = default;
 };
 
+/// Standard deviation of a row without weight, such as one that was lost.
+inline constexpr double kNoWeight = std::numeric_limits<double>::infinity();
+
 /// Returns the standard deviation of each row (rows x joints) of a log whose white noise is `loudness` (by
-/// joint) times that of the healthy logs. That of lost rows is so large that they have no weight.
+/// joint) times that of the healthy logs; kNoWeight for lost rows and for joints at rest that stick.
 Eigen::MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, const RowNoise& noise,
                         const Eigen::VectorXd& loudness);
 
-/// Whitens `columns` (rows x columns of one joint; equation (4) of docs/how-it-works.md): divides them by
-/// their standard deviation `std`, then filters them.
-Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns, const Eigen::VectorXd& std, const JointNoise& noise);
+/// Whitens the rows of one joint of a log (equation (4) of docs/how-it-works.md): divides them by their
+/// standard deviation, subtracts the best linear prediction from the last rows that have weight, and divides
+/// the rest by its standard deviation. As many rows predict a row as the autoregression has terms; the first
+/// rows of a log have fewer before them, and those behind rows without weight are predicted less well.
+class Whitener {
+ public:
+  Whitener(const Eigen::VectorXd& std, const JointNoise& noise);
+
+  /// Returns whitened columns (rows x columns); rows without weight are 0.
+  Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const { return of(columns, 0); }
+  /// Returns the same for columns that are given from row `begin` on and are 0 before it.
+  Eigen::MatrixXd of(const Eigen::MatrixXd& columns, Eigen::Index begin) const;
+
+ private:
+  /// A row that other rows predict than those right before it.
+  struct Exception {
+    Eigen::Index row = 0;
+    std::vector<std::pair<Eigen::Index, double>> predictors{};  ///< row and weight, over standard deviations
+    double innovation = 1.0;
+  };
+
+  Eigen::VectorXd weight_;  ///< by row: one over the standard deviation
+  Eigen::VectorXd filter_;
+  double innovation_ = 1.0;
+  std::vector<Exception> exceptions_;
+};
+
+/// Returns the whitener of each joint; `std`: rows x joints.
+std::vector<Whitener> whiteners(const Eigen::MatrixXd& std, const RowNoise& noise);
 
 /// Returns the largest number of rows before a row that its whitened value contains.
 int filter_order(const RowNoise& noise);

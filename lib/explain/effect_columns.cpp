@@ -36,9 +36,9 @@ void EffectColumns::append(const StackedColumns& columns) {
   effects_ += columns.cols();
 }
 
-EffectColumns EffectColumns::whitened(const MatrixXd& std, const RowNoise& noise) const {
+EffectColumns EffectColumns::whitened(const std::vector<Whitener>& white) const {
   EffectColumns out = *this;
-  for (int j = 0; j < joints(); ++j) out.column_[j] = whiten(column_[j], std.col(j), noise.joint[j]);
+  for (int j = 0; j < joints(); ++j) out.column_[j] = white[j](column_[j]);
   return out;
 }
 

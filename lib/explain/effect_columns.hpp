@@ -29,8 +29,8 @@ class EffectColumns {
 
   /// Appends effects with these stacked columns.
   void append(const StackedColumns& columns);
-  /// Returns the whitened columns; `std` is that of each row, rows x joints.
-  EffectColumns whitened(const Eigen::MatrixXd& std, const RowNoise& noise) const;
+  /// Returns the whitened columns; `white` by joint.
+  EffectColumns whitened(const std::vector<Whitener>& white) const;
 
   /// Returns X' X of these columns X, or of their rows that `only` marks.
   Eigen::MatrixXd square() const;

@@ -18,7 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kForgotten = 1e-9;    // share of a change of a velocity: rows with less count as unchanged
-constexpr double kSilent = 1e6;        // times the standard deviation: a silent row
 constexpr double kCorrectedStd = 0.1;  // share of a false reading's size: its error once corrected (std)
 constexpr double kSizeDoubt = 0.05;    // the same of a fault that began before the log
 constexpr int kNoiseRounds = 3;        // rounds that estimate the log's own noise, at most
@@ -213,7 +212,7 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
     }
   }
   for (std::size_t i = 0; i < silent_.size(); ++i)
-    if (silent_[i]) std_.data()[i] *= kSilent;
+    if (silent_[i]) std_.data()[i] = kNoWeight;
   whiten_effects();
   settle_healthy();
   loosen_halts();
@@ -244,7 +243,8 @@ void LogFit::loosen_halts() {
 }
 
 void LogFit::whiten_effects() {
-  white_effects_ = effects_.whitened(std_, noise_);
+  white_ = whiteners(std_, noise_);
+  white_effects_ = effects_.whitened(white_);
   effect_square_ = white_effects_.square();
   effect_factor_ = posterior_factor(effect_square_, effect_variance_.cwiseInverse());
   before_.clear();
@@ -321,7 +321,7 @@ StackedColumns LogFit::whitened(const StackedColumns& columns) const {
     if (of_joint.isZero(0.0))
       out.middleRows(j * count(), count()).setZero();
     else
-      out.middleRows(j * count(), count()) = whiten(of_joint, std_.col(j), noise_.joint[j]);
+      out.middleRows(j * count(), count()) = white_[j](of_joint);
   }
   return out;
 }

@@ -141,6 +141,7 @@ class LogFit {
   Eigen::VectorXd noise_level_;
   RowNoise noise_;
   Eigen::MatrixXd std_, tip_;
+  std::vector<Whitener> white_;  ///< by joint, for std_ and noise_
   Stacked residual_, spring_;
   Stacked known_torque_;  ///< of the known faults, with the sizes of their claims
   std::vector<LinearFault> linear_;

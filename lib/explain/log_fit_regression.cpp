@@ -12,7 +12,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSilentStd = 1e9;   // N m or N: standard deviation of a row without weight
 constexpr double kGravity = 9.81;    // m/s^2: only for the scale of a work piece's weight
 constexpr double kMostOfDay = 30.0;  // prior standard deviations: bound of an effect of the day
 constexpr double kHeld = 1e12;       // times its precision: of an effect that is held at its bound
@@ -172,7 +171,7 @@ std::vector<WhitePulse> LogFit::white_pulses(const PieceRamps& ramps, const Stac
       const VectorXd torque =
           model_.piece_kg *
           tip_.col(j).segment(begin, end - begin).cwiseProduct(level.segment(begin, end - begin));
-      pulse.torque.col(j) = whiten(torque, std_.col(j).segment(begin, end - begin), noise_.joint[j]);
+      pulse.torque.col(j) = white_[j].of(torque, begin);
       for (int k = begin; k < end && !dropped.empty(); ++k)
         if (dropped[j * count() + k]) pulse.torque(k - begin, j) = 0.0;
     }
@@ -244,7 +243,7 @@ PiecePath LogFit::path_of(const Stacked& left, const StackedMask& dropped, bool 
   Eigen::Map<VectorXd> flat(std.data(), std.size());
   for (const StackedMask* mask : {&dropped, &silent_})
     for (std::size_t i = 0; i < mask->size(); ++i)
-      if ((*mask)[i]) flat[static_cast<Eigen::Index>(i)] = kSilentStd;
+      if ((*mask)[i]) flat[static_cast<Eigen::Index>(i)] = kNoWeight;
   return piece_path(unstacked(left, joints()), model_.piece_kg * tip_, std);
 }
 

@@ -35,7 +35,7 @@ std::string why_kept(const Identification& id, int p, const TableFacts& facts) {
   const std::string useless = "it does not lower the held-out error",
                     slow = fmt::format("no log has a sample period below {:g} s", kShowsFriction_s);
   if (p > id.space.timing()) {
-    if (id.method == IdentifyMethod::weak_form) return "the momentum balance hardly depends on it";
+    if (id.method == IdentifyMethod::weak_form) return "only learn estimates it, from all its logs";
     return has_fast_log(id) ? "the logs do not determine this joint's Coulomb friction" : slow;
   }
   if (p < id.space.rigid()) return id.space.base[p].is_rotor && !(id.covariance(p, p) > 0.0) ? useless : "";

@@ -130,8 +130,6 @@ std::vector<bool> rigid_columns_used(const RigidColumns& rigid, const ColumnLayo
     used[layout.load(j)] = used[layout.spring(j)] = false;
   }
   for (int p = layout.drive(0); p < layout.count(); ++p) used[p] = false;
-  for (int p = 0; p < layout.base; ++p)
-    if (is_rotor(rigid, p)) used[p] = false;
   return used;
 }
 
@@ -164,9 +162,7 @@ VectorXd static_friction(const std::vector<UniformLog>& logs, const BalanceModel
   BalanceModel all_stick = model;
   all_stick.stiction = VectorXd::Ones(n);
   const std::vector<BalanceRows> moving = rows_of(logs, model.setting, all_stick);
-  std::vector<bool> used = rigid_columns_used(model.rigid, layout);
-  for (int p = 0; p < layout.base; ++p) used[p] = true;  // rotors, too: they act in motion alone
-  const VectorXd theta = plain_fit(moving, layout, used, model.torque_rms);
+  const VectorXd theta = plain_fit(moving, layout, rigid_columns_used(model.rigid, layout), model.torque_rms);
   std::vector<RestAndMotion> joint(n);
   for (const UniformLog& log : logs) {
     const BalanceRows rows = balance_rows(log, model.setting, model.rigid, {});

@@ -59,9 +59,8 @@ RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const
 Eigen::VectorXd plain_fit(const std::vector<BalanceRows>& rows, const ColumnLayout& layout,
                           const std::vector<bool>& used, const Eigen::VectorXd& scale);
 
-/// Returns the columns of a robot without springs, ripples, rotors, load friction and coupled
-/// drives. The offset of a joint is free unless
-/// the joint carries weight.
+/// Returns the columns of a robot without springs, ripples, load friction and coupled drives. The offset of a
+/// joint is free unless the joint carries weight.
 std::vector<bool> rigid_columns_used(const RigidColumns& rigid, const ColumnLayout& layout);
 
 }  // namespace faultline

@@ -23,8 +23,12 @@ using Eigen::VectorXd;
 constexpr double kRowKernels = 2.0;  // kernels between two rows: finer rows repeat each other
 constexpr int kFilterOrder = 3;      // of the autoregression of the rows
 constexpr int kFitRounds = 10;       // each fits parameters, days and noise in turn
+// First rounds, which take the noise as white: noise that wanders would explain what is constant in a day,
+// such as a weight, and the fit would let it.
+constexpr int kWhiteRounds = 8;
 // Rounds of the fit from which another term is tried: later terms need the earlier ones.
-constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRotorsFrom = 5, kRowsUntil = 6;
+constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRowsUntil = 6;
+constexpr int kPossibleFrom = 5;     // round from which terms with an impossible estimate are left out
 constexpr int kWidthsAt[] = {3, 6};  // rounds that refine the friction widths
 
 constexpr double kTopSpeed = 0.999;  // quantile of a joint's speed
@@ -68,7 +72,7 @@ constexpr EffectStd kUnseen{.inertia = 1e-2,
                             .friction = 0.05,
                             .slope = 0.03,
                             .gain = 1e-2,
-                            .offset = 1e-3,
+                            .offset = 5e-3,
                             .width = 0.1,
                             .viscous = 0.05,
                             .direction = 0.03,
@@ -124,7 +128,6 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
   std::vector<BalanceRows> rows;
   for (const HealthyDay& day : draft.days) rows.push_back(without_balances(day.rows, day.rows.at_rest));
   draft.used = rigid_columns_used(m.rigid, m.layout());
-  draft.refused.assign(draft.used.size(), false);
   m.theta = plain_fit(rows, m.layout(), draft.used, m.torque_rms);
   for (int j = 0; j < m.joints(); ++j)
     draft.used[m.layout().spring(j)] = m.rigid.chain.geometry[j].kind == AxisKind::revolute;
@@ -140,8 +143,7 @@ DayDraft with_terms_of_round(DayDraft draft, int round) {
   if (round == kRipplesAt) draft = with_ripples(std::move(draft));
   if (round == kSpringsFrom) draft = with_chosen_springs(std::move(draft));
   if (round >= kSpringsFrom) draft.model = with_compliance(std::move(draft.model));
-  draft = with_rotors(std::move(draft), round >= kRotorsFrom);
-  if (round >= kRotorsFrom) draft = without_impossible_terms(std::move(draft));
+  if (round >= kPossibleFrom) draft = without_impossible_terms(std::move(draft));
   if (round <= kRowsUntil) draft = with_rows(std::move(draft));
   return with_day_columns(std::move(draft));
 }
@@ -153,30 +155,28 @@ std::vector<int> free_columns(const DayDraft& draft) {
   return free;
 }
 
-MatrixXd whitened(const std::vector<MatrixXd>& column, const HealthyDay& day, const RowNoise& noise) {
-  const Eigen::Index rows = day.rows.rows();
-  MatrixXd out(rows * day.rows.joints(), column.front().cols());
-  for (int j = 0; j < day.rows.joints(); ++j)
-    out.middleRows(j * rows, rows) = whiten(column[j], day.std.col(j), noise.joint[j]);
+MatrixXd whitened(const std::vector<MatrixXd>& column, const std::vector<Whitener>& white) {
+  const Eigen::Index rows = column.front().rows();
+  MatrixXd out(rows * std::ssize(white), column.front().cols());
+  for (std::size_t j = 0; j < white.size(); ++j)
+    out.middleRows(static_cast<Eigen::Index>(j) * rows, rows) = white[j](column[j]);
   return out;
 }
 
-VectorXd whitened(const MatrixXd& torque, const HealthyDay& day, const RowNoise& noise) {
-  const Eigen::Index rows = day.rows.rows();
-  VectorXd out(rows * torque.cols());
-  for (int j = 0; j < torque.cols(); ++j)
-    out.segment(j * rows, rows) = whiten(torque.col(j), day.std.col(j), noise.joint[j]);
-  return out;
+VectorXd whitened(const MatrixXd& torque, const std::vector<Whitener>& white) {
+  MatrixXd out(torque.rows(), torque.cols());
+  for (Eigen::Index j = 0; j < torque.cols(); ++j) out.col(j) = white[j](torque.col(j));
+  return out.reshaped();
 }
 
 std::vector<DayBlock> day_blocks(const DayDraft& draft, const std::vector<int>& free,
                                  const VectorXd& between) {
   std::vector<DayBlock> out;
   for (const HealthyDay& day : draft.days) {
-    const RowNoise& noise = draft.model.noise;
-    const MatrixXd y = whitened(day.rows.column, day, noise)(Eigen::all, free);
-    const MatrixXd w = whitened(day.day_column, day, noise);
-    const VectorXd r = whitened(day.rows.torque - day.piece, day, noise);
+    const std::vector<Whitener> white = whiteners(day.std, draft.model.noise);
+    const MatrixXd y = whitened(day.rows.column, white)(Eigen::all, free);
+    const MatrixXd w = whitened(day.day_column, white);
+    const VectorXd r = whitened(day.rows.torque - day.piece, white);
     const Eigen::Index robot = y.cols(), effects = w.cols();
     NormalEquations sums{MatrixXd::Zero(robot + effects, robot + effects), VectorXd(robot + effects)};
     sums.matrix.topLeftCorner(robot, robot) = y.transpose() * y;
@@ -313,7 +313,7 @@ FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& spac
     draft = with_terms_of_round(std::move(draft), round);
     if (round == 0) draft = with_first_piece(std::move(draft));
     draft = with_piece_paths(std::move(draft), round < kFinePathsFrom);
-    draft = with_noise(std::move(draft), kFilterOrder);
+    draft = with_noise(std::move(draft), round < kWhiteRounds ? 0 : kFilterOrder);
     MixedEffects fit = fit_mixed_effects(std::move(draft), between);
     draft = std::move(fit.draft);
     between = variance_between_days(draft.model, fit.moments);

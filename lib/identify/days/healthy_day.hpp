@@ -29,7 +29,6 @@ struct DayDraft {
   BalanceModel model;
   std::vector<HealthyDay> days;
   std::vector<bool> used;
-  std::vector<bool> refused{};     ///< columns whose estimate was infeasible (a negative rotor inertia)
   std::vector<ExtraTerm> extra{};  ///< of the robot
 };
 
@@ -69,15 +68,12 @@ BalanceModel with_compliance(BalanceModel model);
 /// Adds torques that repeat with a position, if they explain a large part of the residual.
 DayDraft with_ripples(DayDraft draft);
 
-/// Frees rotors that act apart from the links if `are_looked_for`; one whose estimate is negative stays out.
-DayDraft with_rotors(DayDraft draft, bool are_looked_for);
-
 /// Returns the column of an extra term of the robot in the rows; none for ripples and springs, for which the
 /// fit of the days looks itself.
 std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout);
 
-/// Leaves out the extra terms whose estimate is impossible (is_possible()), such as load friction that takes
-/// more than the gear carries.
+/// Leaves out rotors that act apart from the links and whose estimate is negative, and extra terms whose
+/// estimate is impossible (is_possible()), such as load friction that takes more than the gear carries.
 DayDraft without_impossible_terms(DayDraft draft);
 
 }  // namespace faultline

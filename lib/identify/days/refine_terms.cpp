@@ -135,16 +135,6 @@ DayDraft with_ripples(DayDraft draft) {
   return draft;
 }
 
-DayDraft with_rotors(DayDraft draft, bool are_looked_for) {
-  const BalanceModel& m = draft.model;
-  for (int p = 0; p < m.rigid.base(); ++p) {
-    if (!is_rotor(m.rigid, p)) continue;
-    draft.refused[p] = draft.refused[p] || m.theta[p] < 0.0;
-    draft.used[p] = are_looked_for && !draft.refused[p];
-  }
-  return draft;
-}
-
 std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout) {
   if (term.kind == ExtraKind::load_friction) return layout.load(term.joint);
   if (term.kind == ExtraKind::shared_inertia) return layout.drive(term.index);
@@ -154,6 +144,8 @@ std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout) 
 }
 
 DayDraft without_impossible_terms(DayDraft draft) {
+  for (int p = 0; p < draft.model.rigid.base(); ++p)
+    if (is_rotor(draft.model.rigid, p) && draft.model.theta[p] < 0.0) draft.used[p] = false;
   for (const ExtraTerm& term : draft.extra) {
     const std::optional<int> column = column_of(term, draft.model.layout());
     if (column && !is_possible(term.kind, draft.model.theta[*column])) draft.used[*column] = false;

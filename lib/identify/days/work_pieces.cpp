@@ -54,15 +54,6 @@ std::vector<double> masses_of(const HealthyDay& day, const BalanceModel& m, cons
   return out;
 }
 
-/// Returns the parameters of a robot with rotors, without which an acceleration looks like a mass.
-VectorXd fit_with_rotors(const DayDraft& draft) {
-  std::vector<BalanceRows> rows;
-  for (const HealthyDay& day : draft.days) rows.push_back(without_balances(day.rows, day.rows.at_rest));
-  std::vector<bool> used = draft.used;
-  std::fill_n(used.begin(), draft.model.rigid.base(), true);
-  return plain_fit(rows, draft.model.layout(), used, draft.model.torque_rms);
-}
-
 Groups groups_of(std::vector<double> masses) {
   std::sort(masses.begin(), masses.end());
   const Eigen::Map<const VectorXd> sorted(masses.data(), static_cast<Eigen::Index>(masses.size()));
@@ -98,7 +89,9 @@ double carried_kg(const DayDraft& draft) {
 
 DayDraft with_first_piece(DayDraft draft) {
   std::vector<double> low, step, ratio;
-  const VectorXd theta = fit_with_rotors(draft);
+  std::vector<BalanceRows> rows;
+  for (const HealthyDay& day : draft.days) rows.push_back(without_balances(day.rows, day.rows.at_rest));
+  const VectorXd theta = plain_fit(rows, draft.model.layout(), draft.used, draft.model.torque_rms);
   for (const HealthyDay& day : draft.days) {
     std::vector<double> masses = masses_of(day, draft.model, theta);
     if (masses.size() < kFewestWindows) return draft;

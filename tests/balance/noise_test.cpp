@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "lib/balance/noise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace faultline {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Eigen::Index kRows = 40;
+
+/// Noise that wanders: autocovariance exp(-lag / 12), with a part that does not.
+JointNoise wandering_noise(Eigen::Index order) {
+  VectorXd covariance(order + 1);
+  for (Eigen::Index lag = 0; lag <= order; ++lag)
+    covariance[lag] = std::exp(-static_cast<double>(lag) / 12.0) + (lag == 0 ? 0.05 : 0.0);
+  return with_autocovariance({.base = 1.0}, covariance);
+}
+
+/// Returns the autocovariance of an autoregression up to any lag, from its first lags.
+double covariance_at(const JointNoise& noise, Eigen::Index lag) {
+  const VectorXd first = autocovariance(noise);
+  std::vector<double> all(first.begin(), first.end());
+  while (std::ssize(all) <= lag) {
+    double next = 0.0;
+    for (Eigen::Index i = 1; i < noise.filter.size(); ++i)
+      next -= noise.filter[i] * all[all.size() - static_cast<std::size_t>(i)];
+    all.push_back(next);
+  }
+  return all[static_cast<std::size_t>(lag)];
+}
+
+/// Returns the covariance of the rows with weight, with their standard deviations.
+MatrixXd covariance_of(const VectorXd& std, const JointNoise& noise) {
+  MatrixXd out(std.size(), std.size());
+  for (Eigen::Index i = 0; i < std.size(); ++i)
+    for (Eigen::Index k = 0; k < std.size(); ++k)
+      out(i, k) = std[i] * std[k] * covariance_at(noise, std::abs(i - k));
+  return out;
+}
+
+VectorXd uneven_std() {
+  return VectorXd::NullaryExpr(kRows, [](Eigen::Index k) { return 1.0 + 0.5 * std::sin(0.4 * double(k)); });
+}
+
+/// Returns X' inv(C) X of the rows `kept`.
+MatrixXd exact(const MatrixXd& x, const MatrixXd& covariance, const std::vector<Eigen::Index>& kept) {
+  const MatrixXd some = x(kept, Eigen::all);
+  return some.transpose() * covariance(kept, kept).llt().solve(some);
+}
+
+MatrixXd some_columns() {
+  MatrixXd out(kRows, 3);
+  for (Eigen::Index k = 0; k < kRows; ++k) out.row(k) << 1.0, std::sin(0.3 * double(k)), (k * 7 % 11) - 5.0;
+  return out;
+}
+
+TEST(Noise, AWhitenedLogHasTheExactEvidenceOfItsCovariance) {
+  const JointNoise noise = wandering_noise(3);
+  const VectorXd std = uneven_std();
+  std::vector<Eigen::Index> all;
+  for (Eigen::Index k = 0; k < kRows; ++k) all.push_back(k);
+  const MatrixXd x = some_columns(), white = Whitener(std, noise)(x);
+  EXPECT_TRUE((white.transpose() * white).isApprox(exact(x, covariance_of(std, noise), all), 1e-9));
+}
+
+TEST(Noise, RowsWithoutWeightLeaveTheExactEvidenceOfTheOthers) {
+  const JointNoise noise = wandering_noise(1);
+  VectorXd std = uneven_std();
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < kRows; ++k)
+    if (k == 9 || (k > 20 && k < 29))
+      std[k] = kNoWeight;
+    else
+      kept.push_back(k);
+  const MatrixXd x = some_columns(), white = Whitener(std, noise)(x);
+  EXPECT_TRUE(white.row(9).isZero(0.0));
+  const MatrixXd square = white.transpose() * white,
+                 right = exact(x, covariance_of(uneven_std(), noise), kept);
+  EXPECT_TRUE(square.isApprox(right, 1e-9)) << square << "\n" << right;
+}
+
+TEST(Noise, TheFirstRowOfALogCountsAsOneOfTheWholeVariance) {
+  const JointNoise noise = wandering_noise(3);
+  VectorXd level = VectorXd::Ones(kRows);
+  const VectorXd white = Whitener(VectorXd::Ones(kRows), noise)(level);
+  EXPECT_NEAR(white[0], 1.0 / std::sqrt(autocovariance(noise)[0]), 1e-9);
+  EXPECT_GT(white[0], 0.9);
+  EXPECT_LT(white[0], 1.1);
+  EXPECT_GT(1.0 / noise.innovation, 1.5) << "as if the rows before it had been zero";
+}
+
+TEST(Noise, ColumnsThatBeginLaterAreWhitenedLikeWholeOnes) {
+  const JointNoise noise = wandering_noise(3);
+  VectorXd std = uneven_std();
+  std[12] = kNoWeight;
+  MatrixXd x = some_columns();
+  x.topRows(11).setZero();
+  const Whitener white(std, noise);
+  EXPECT_TRUE(white.of(x.bottomRows(kRows - 11), 11).isApprox(white(x).bottomRows(kRows - 11), 1e-12));
+}
+
+}  // namespace
+}  // namespace faultline
