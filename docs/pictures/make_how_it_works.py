@@ -42,7 +42,7 @@ ONSET_S = 1.9529  # as labels.csv has it
 KERNEL_S, FRICTION_KERNEL_S, ROW_SAMPLES, ORDER = 0.012, 0.006, 24, 3
 WIDTH = np.array([0.02, 0.02, 0.01])  # rad/s and m/s of tanh(dq / width)
 MODEL_SHARE = 0.004  # of each term of the model: what the model of a machine lacks
-INERTIA_STD, FRICTION_STD, GAIN_STD, OFFSET_SHARE = 0.01, 0.05, 0.01, 1e-3  # effects of a day
+INERTIA_STD, FRICTION_STD, GAIN_STD, OFFSET_SHARE = 0.01, 0.05, 0.01, 5e-3  # effects of a day
 GRAVITY = 9.81
 BLUE, ORANGE, GREEN, PURPLE, GREY = "#0072b2", "#d55e00", "#009e73", "#8d5fa8", "#6b7078"
 

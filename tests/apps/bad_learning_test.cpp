@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -60,16 +60,26 @@ std::string swinging(double reach) {
   return text;
 }
 
+/// Returns the processor time of the programs that ended so far.
+double time_of_programs_s() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 TEST_F(BadLearning, DegreesTakenForRadiansAreRefusedBeforeAnyWork) {
   robot_ = folder_.write("robot.toml", "axes = \"R\"\n[known]\nl1 = 0.3\n");
   const std::vector<std::string> words = {"log.csv", "q1 is between -45 and 45", "hardly in rad",
                                           "[log.columns] q1 = {unit = \"deg\"}", "--force"};
-  const auto start = std::chrono::steady_clock::now();
+  const double before_s = time_of_programs_s();
   expect_refused(learn(swinging(45.0)), 3, words);
   const std::vector<std::string> identify = {"identify", folder_.file("log.csv"),    "--robot", robot_,
                                              "-o",       folder_.file("robot.model")};
   expect_refused(run_program(identify), 3, words);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5)) << "both before any work";
+  EXPECT_LT(time_of_programs_s() - before_s, 5.0) << "both before any work";
 
   std::vector<std::string> forced = identify;
   forced.push_back("--force");

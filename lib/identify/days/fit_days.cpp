@@ -23,9 +23,9 @@ using Eigen::VectorXd;
 constexpr double kRowKernels = 2.0;  // kernels between two rows: finer rows repeat each other
 constexpr int kFilterOrder = 3;      // of the autoregression of the rows
 constexpr int kFitRounds = 10;       // each fits parameters, days and noise in turn
-// First rounds, which take the noise as white: noise that wanders would explain what is constant in a day,
-// such as a weight, and the fit would let it.
-constexpr int kWhiteRounds = 8;
+// All rounds but the last, which take the noise as white: noise that wanders would explain what is constant
+// in a day, such as a weight, and the fit would let it.
+constexpr int kWhiteRounds = kFitRounds - 1;
 // Rounds of the fit from which another term is tried: later terms need the earlier ones.
 constexpr int kSpringsFrom = 2, kFinePathsFrom = 4, kRipplesAt = 4, kRowsUntil = 6;
 constexpr int kPossibleFrom = 5;     // round from which terms with an impossible estimate are left out
@@ -318,6 +318,7 @@ FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& spac
     draft = std::move(fit.draft);
     between = variance_between_days(draft.model, fit.moments);
   }
+  draft.model = with_compliance(std::move(draft.model));
   FittedDays out;
   for (const RobotWithoutDay& robot : fit_without_each_day(draft, between)) {
     BalanceModel& m = out.without.emplace_back(draft.model);
