@@ -92,7 +92,7 @@ Whitener::Whitener(const VectorXd& std, const JointNoise& noise)
     const auto known = static_cast<Eigen::Index>(before.size());
     const bool is_regular = before.size() == order && (order == 0 || before.back() == row - known);
     if (weight_[row] == 0.0) {
-      exceptions_.push_back({.row = row});
+      irregular_.push_back({.row = row});
       continue;
     }
     if (!is_regular) {
@@ -103,9 +103,9 @@ Whitener::Whitener(const VectorXd& std, const JointNoise& noise)
         for (Eigen::Index k = 0; k < known; ++k) among(i, k) = at(std::abs(before[i] - before[k]));
       }
       const VectorXd share = among.ldlt().solve(with);
-      Exception other{row, {}, std::sqrt(at(0) - share.dot(with))};
+      Irregular other{row, {}, std::sqrt(at(0) - share.dot(with))};
       for (Eigen::Index i = 0; i < known; ++i) other.predictors.emplace_back(before[i], share[i]);
-      exceptions_.push_back(std::move(other));
+      irregular_.push_back(std::move(other));
     }
     before.insert(before.begin(), row);
     if (before.size() > order) before.pop_back();
@@ -119,7 +119,7 @@ MatrixXd Whitener::of(const MatrixXd& columns, Eigen::Index begin) const {
   MatrixXd out = scaled;
   for (Eigen::Index lag = 1; lag < filter_.size() && lag < rows; ++lag)
     out.bottomRows(rows - lag) += filter_[lag] * scaled.topRows(rows - lag);
-  for (const Exception& other : exceptions_) {
+  for (const Irregular& other : irregular_) {
     if (other.row < begin || other.row >= begin + rows) continue;
     auto row = out.row(other.row - begin);
     row = scaled.row(other.row - begin);

@@ -50,8 +50,8 @@ class Whitener {
   Eigen::MatrixXd of(const Eigen::MatrixXd& columns, Eigen::Index begin) const;
 
  private:
-  /// A row that other rows predict than those right before it.
-  struct Exception {
+  /// A row that is not predicted from the rows right before it, or has no weight.
+  struct Irregular {
     Eigen::Index row = 0;
     std::vector<std::pair<Eigen::Index, double>> predictors{};  ///< row and weight, over standard deviations
     double innovation = 1.0;
@@ -60,7 +60,7 @@ class Whitener {
   Eigen::VectorXd weight_;  ///< by row: one over the standard deviation
   Eigen::VectorXd filter_;
   double innovation_ = 1.0;
-  std::vector<Exception> exceptions_;
+  std::vector<Irregular> irregular_;
 };
 
 /// Returns the whitener of each joint; `std`: rows x joints.
