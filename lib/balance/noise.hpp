@@ -66,7 +66,8 @@ class Whitener {
 /// Returns the whitener of each joint; `std`: rows x joints.
 std::vector<Whitener> whiteners(const Eigen::MatrixXd& std, const RowNoise& noise);
 
-/// Returns the largest number of rows before a row that its whitened value contains.
+/// Returns the largest number of earlier rows that a whitened row contains; behind rows without weight they
+/// lie further back.
 int filter_order(const RowNoise& noise);
 
 /// Residuals of one healthy log and the rows that they belong to.
