@@ -19,7 +19,9 @@ JointNoise wandering_noise(Eigen::Index order) {
   VectorXd covariance(order + 1);
   for (Eigen::Index lag = 0; lag <= order; ++lag)
     covariance[lag] = std::exp(-static_cast<double>(lag) / 12.0) + (lag == 0 ? 0.05 : 0.0);
-  return with_autocovariance({.base = 1.0}, covariance);
+  JointNoise white;
+  white.base = 1.0;
+  return with_autocovariance(white, covariance);
 }
 
 /// Returns the autocovariance of an autoregression up to any lag, from its first lags.
@@ -56,7 +58,8 @@ MatrixXd exact(const MatrixXd& x, const MatrixXd& covariance, const std::vector<
 
 MatrixXd some_columns() {
   MatrixXd out(kRows, 3);
-  for (Eigen::Index k = 0; k < kRows; ++k) out.row(k) << 1.0, std::sin(0.3 * double(k)), (k * 7 % 11) - 5.0;
+  for (Eigen::Index k = 0; k < kRows; ++k)
+    out.row(k) << 1.0, std::sin(0.3 * double(k)), double(k * 7 % 11) - 5.0;
   return out;
 }
 
