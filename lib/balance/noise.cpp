@@ -2,6 +2,7 @@
 #include "lib/balance/noise.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,10 +16,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kRare = 50.0;           // times the median square: larger squares are clipped to it
-constexpr double kLeastShare = 0.1;      // least constant part, as a share of the median square
-constexpr double kRidge = 1e-4;          // of the variance, on the diagonal of the autocorrelation
-constexpr Eigen::Index kImpulse = 2000;  // rows of the response of the autoregression to one innovation
+constexpr double kRare = 50.0;       // times the median square: larger squares are clipped to it
+constexpr double kLeastShare = 0.1;  // least constant part, as a share of the median square
+constexpr double kRidge = 1e-4;      // of the variance, on the diagonal of the autocorrelation
 
 constexpr int kTerms = 5;  // parts of a row's variance: constant, torque, rest, speed, timing
 using Terms = Eigen::Matrix<double, kTerms, 1>;
@@ -130,17 +130,16 @@ MatrixXd Whitener::of(const MatrixXd& columns, Eigen::Index begin) const {
   return out;
 }
 
+Eigen::Index Whitener::reach(Eigen::Index row) const {
+  for (Eigen::Index known = 1; known < filter_.size() && row < weight_.size(); ++row)
+    if (weight_[row] > 0.0) ++known;
+  return row;
+}
+
 std::vector<Whitener> whiteners(const MatrixXd& std, const RowNoise& noise) {
   std::vector<Whitener> out;
   for (Eigen::Index j = 0; j < std.cols(); ++j) out.emplace_back(std.col(j), noise.joint[j]);
   return out;
-}
-
-int filter_order(const RowNoise& noise) {
-  int order = 0;
-  for (const JointNoise& joint : noise.joint)
-    order = std::max(order, static_cast<int>(joint.filter.size()) - 1);
-  return order;
 }
 
 RowNoise with_variance(const std::vector<LogResidual>& logs, const RowSetting& setting, RowNoise noise) {
@@ -182,8 +181,7 @@ RowNoise with_filter(const std::vector<LogResidual>& logs, int order, RowNoise n
     for (const LogResidual& log : logs) {
       const auto joint = static_cast<Eigen::Index>(j);
       const VectorXd x = log.torque.col(joint).cwiseQuotient(log.std.col(joint));
-      rows += static_cast<double>(x.size());
-      if (log.rows->at_rest.size() > 0) rows -= static_cast<double>(log.rows->at_rest.col(joint).count());
+      rows += static_cast<double>((log.std.col(joint).array() < kNoWeight).count());
       correlation += lag_products(x, order);
     }
     noise.joint[j] = with_autocovariance(std::move(noise.joint[j]), correlation / rows);
@@ -200,13 +198,11 @@ VectorXd lag_products(const VectorXd& rows, Eigen::Index order) {
 
 VectorXd autocovariance(const JointNoise& noise) {
   const Eigen::Index order = noise.filter.size() - 1;
-  VectorXd response(kImpulse);
-  for (Eigen::Index k = 0; k < kImpulse; ++k) {
-    response[k] = k == 0 ? noise.innovation : 0.0;
-    for (Eigen::Index lag = 1; lag <= std::min(order, k); ++lag)
-      response[k] -= noise.filter[lag] * response[k - lag];
-  }
-  return lag_products(response, order);
+  MatrixXd a = MatrixXd::Zero(order + 1, order + 1);
+  for (Eigen::Index row = 0; row <= order; ++row)
+    for (Eigen::Index lag = 0; lag <= order; ++lag) a(row, std::abs(row - lag)) += noise.filter[lag];
+  const double variance = Eigen::numext::abs2(noise.innovation);
+  return a.fullPivLu().solve(variance * VectorXd::Unit(order + 1, 0));
 }
 
 double most_hidden_by_white_noise(const RowNoise& noise) {

@@ -49,6 +49,10 @@ class Whitener {
   /// Returns the same for columns that are given from row `begin` on and are 0 before it.
   Eigen::MatrixXd of(const Eigen::MatrixXd& columns, Eigen::Index begin) const;
 
+  /// Returns the first row at or after `row` whose whitened value contains no row before `row`; the number of
+  /// rows if there is none.
+  Eigen::Index reach(Eigen::Index row) const;
+
  private:
   /// A row that is not predicted from the rows right before it, or has no weight.
   struct Irregular {
@@ -65,10 +69,6 @@ class Whitener {
 
 /// Returns the whitener of each joint; `std`: rows x joints.
 std::vector<Whitener> whiteners(const Eigen::MatrixXd& std, const RowNoise& noise);
-
-/// Returns the largest number of earlier rows that a whitened row contains; behind rows without weight they
-/// lie further back.
-int filter_order(const RowNoise& noise);
 
 /// Residuals of one healthy log and the rows that they belong to.
 struct LogResidual {
@@ -88,7 +88,8 @@ RowNoise with_filter(const std::vector<LogResidual>& logs, int order, RowNoise n
 /// Returns the sums of products of rows that lie 0, 1, .. `order` apart.
 Eigen::VectorXd lag_products(const Eigen::VectorXd& rows, Eigen::Index order);
 
-/// Returns the autocovariance of rows over their standard deviation: of lag 0 up to the order of the filter.
+/// Returns the autocovariance of rows over their standard deviation, of lag 0 up to the order of the filter,
+/// by the equations of Yule and Walker.
 Eigen::VectorXd autocovariance(const JointNoise& noise);
 /// Returns the greatest ratio by which the evidence for a torque that lasts may exceed its score with white
 /// noise: the greatest variance of a joint's noise over its spectral density at frequency zero; at least 1.

@@ -66,6 +66,7 @@ std::vector<ExplainedFault> named_faults(const LogExplanation& e, const Evidence
     fault.claim = *best;
     fault.evidence = best->gain;
     fault.misfit = best->misfit;
+    fault.shrinking = best->shrinking;
     const double left = best->fit.mean_square(), scale = std::max(1.0, left);
     fault.residual_share = std::max(0.0, left - 1.0) / std::max(1.0, e.healthy_square - 1.0);
     for (auto h = best + 1; h != e.best.end(); ++h)

@@ -51,10 +51,11 @@ struct LabelScore {
 /// A fault that explains a log.
 struct ExplainedFault {
   FaultClaim claim;
-  double alarm_s = 0.0;   ///< earliest sample at which the evidence from the onset on passes the limit
-  double evidence = 0.0;  ///< nats
-  double limit = 0.0;     ///< nats that the evidence had to exceed
-  double misfit = 0.0;    ///< nats by which a free form explains the log better
+  double alarm_s = 0.0;    ///< earliest sample at which the evidence from the onset on passes the limit
+  double evidence = 0.0;   ///< nats
+  double limit = 0.0;      ///< nats that the evidence had to exceed
+  double misfit = 0.0;     ///< nats by which a free form explains the log better
+  double shrinking = 0.0;  ///< price_of_shrinking(): a part of `misfit` that no further fault takes away
   /// Excess of the mean square of the residuals over the noise, as a share of that without the fault.
   double residual_share = 0.0;
   std::vector<FaultLabel> could_also_be;  ///< explain the log almost as well

@@ -272,15 +272,14 @@ double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& 
                      torque.unaryExpr([](double f) { return std::isnan(f) ? 0.0 : f * f; }).rowwise().sum(),
                  edges = fault_edges(fit.rows(), fit.model().setting, h);
   const double edge_s = reach_s(fit.model().setting), from_s = std::min(h.onset_s, change.onset_s) - edge_s;
-  // A whitened row contains the torque of some rows before it, too.
-  const double until_s = h.end_s + edge_s + (1.0 + filter_order(fit.noise())) * fit.model().setting.row_s();
-  const auto lasts = [&](int k) { return fit.time_s()[k] > h.onset_s - edge_s && fit.time_s()[k] < until_s; };
+  const int end = fit.whitened_reach(fit.first_row(h.end_s + edge_s + fit.model().setting.row_s()));
+  const auto lasts = [&](int k) { return fit.time_s()[k] > h.onset_s - edge_s && k < end; };
   double usual = 0.0, count = 0.0;
   for (int k = 0; k < fit.count(); ++k)
     if (lasts(k)) usual += power[k], count += 1.0;
   usual /= std::max(1.0, count);
   const double share = form_share(h.kind);
-  double out = 0.0;
+  double out = h.shrinking;
   for (int k = 0; k < fit.count(); ++k) {
     if (fit.time_s()[k] < from_s) continue;
     const double inexact = std::max(share * share * usual, kEdgeShare * kEdgeShare * edges[k] * power[k]);
@@ -298,6 +297,7 @@ double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& 
 LogExplanation with_evidence(const LogFit& fit, LogExplanation e) {
   for (FaultHypothesis& h : e.best) {
     h.course = course_of(fit, h.onset_s, h.at_onset, fit.residual_without_fault(h.fit), h.fit.left);
+    h.shrinking = price_of_shrinking(fit, h, h.fit);
     h.misfit = misfit(fit, e.free_form, h);
   }
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

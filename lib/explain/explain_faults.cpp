@@ -218,14 +218,17 @@ std::vector<ExplainedFault> best_faults(const GivenLog& given, const std::vector
     if (first.claim.kind == FaultKind::unknown || first.evidence < kFirstShare * alone.evidence) continue;
     std::vector<FaultClaim> more = known;
     std::vector<ExplainedFault> together = {first};
+    double shrinking = 0.0;
     while (together.size() < kMostTogether) {
       more.push_back(together.back().claim);
+      shrinking += together.back().shrinking;
       const NextFault another = next_fault(given, more);
       if (another.named.empty()) break;
       // Beside a part of a fault that comes and goes the other parts are easier to find.
       repeated = repeated_fault(given, known, another, another.named.size());
       if (!repeated.empty()) return repeated;
       together.push_back(another.named.front());
+      together.back().misfit += shrinking;
       if (together.back().claim.kind == FaultKind::unknown) break;
       if (!has_large_misfit(together.back())) return together;
     }

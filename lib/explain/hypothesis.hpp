@@ -44,6 +44,7 @@ struct FaultHypothesis : FaultClaim {
   // Of the best hypothesis of each kind and joint alone.
   EvidenceCourse course{};  ///< from the onset on
   double misfit = 0.0;      ///< nats by which a free form explains the log better
+  double shrinking = 0.0;   ///< price_of_shrinking(): a part of `misfit` that no further fault takes away
 };
 
 inline constexpr double kUsualBlow_s = 0.05;   ///< median of the length of a collision

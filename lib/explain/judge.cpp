@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/explain/judge.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -212,7 +213,7 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
   Explanation e = fit.explain_with_piece(fit.residual(), columns, fault.starts, claim.onset_s);
   claim.kind = fault.kind;
   claim.grows = fault.columns.grow;
-  const double price = price_of_size(fit, claim, e);
+  const double price = price_of_size(fit, claim, e) + price_of_shrinking(fit, claim, e);
   if (fault.kind == FaultKind::torque_loss && e.size[0] > kFreeShare) claim.kind = FaultKind::free_swinging;
   return hypothesis(fit, claim, std::move(e), price);
 }
@@ -257,6 +258,26 @@ FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
 }
 
 }  // namespace
+
+double price_of_shrinking(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
+  if (column_kind(claim.kind) != FaultKind::torque_loss) return 0.0;
+  const BalanceModel& m = fit.model();
+  const DayLayout day = day_layout(m);
+  const int j = claim.joint - 1, base = day.base;
+  const VectorXd theta = m.theta.head(base), changed = theta.cwiseProduct(e.day.head(base));
+  double square = 0.0, product = 0.0, rows = 0.0;
+  for (int k = 0; k < fit.count(); ++k) {
+    if (fit.time_s()[k] <= claim.onset_s || fit.time_s()[k] >= claim.end_s) continue;
+    if (fit.std()(k, j) == kNoWeight) continue;
+    const auto column = fit.rows().column[j].row(k).head(base);
+    const double usual = column.dot(theta);
+    square += usual * usual;
+    product += usual * column.dot(changed);
+    ++rows;
+  }
+  const double share = 1.0 + e.day[day.gain(j)] + (square > 0.0 ? product / square : 0.0);
+  return rows * (share > 0.0 ? std::clamp(-elementary::log(share), 0.0, kForcedRow) : kForcedRow);
+}
 
 FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim) {
   claim.kind = FaultKind::unknown;

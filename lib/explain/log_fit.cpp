@@ -291,6 +291,12 @@ int LogFit::first_row(double at_s) const {
   return static_cast<int>(std::lower_bound(time_s().begin(), time_s().end(), at_s) - time_s().begin());
 }
 
+int LogFit::whitened_reach(int row) const {
+  Eigen::Index out = row;
+  for (const Whitener& white : white_) out = std::max(out, white.reach(row));
+  return static_cast<int>(out);
+}
+
 bool LogFit::is_silent(int joint, double time_s) const {
   return std::ranges::any_of(known_, [&](const FaultClaim& claim) {
     return silences(claim.kind) && (claim.joint == joint || silences_all(claim)) && time_s >= claim.onset_s &&

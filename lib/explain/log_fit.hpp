@@ -63,6 +63,8 @@ class LogFit {
   const Eigen::VectorXd& time_s() const { return rows_.time_s; }
   /// Returns the first row at or after a time; count() if there is none.
   int first_row(double time_s) const;
+  /// Returns the first row at or after `row` whose whitened values contain no row before `row`.
+  int whitened_reach(int row) const;
   const Eigen::VectorXd& loudness() const { return noise_level_; }
   /// Standard deviation of each row, rows x joints.
   const Eigen::MatrixXd& std() const { return std_; }

@@ -160,12 +160,11 @@ VectorXd LogFit::known_times_of(const PiecePath& path) const {
 
 std::vector<WhitePulse> LogFit::white_pulses(const PieceRamps& ramps, const StackedMask& dropped) const {
   std::vector<WhitePulse> out;
-  const int order = filter_order(noise_);
   const auto add = [&](const VectorXd& level, double variance) {
     int begin = 0, end = count();
     while (begin < end && level[begin] == 0.0) ++begin;
     while (begin < end && level[end - 1] == 0.0) --end;
-    end = std::min(count(), end + order);
+    end = whitened_reach(end);
     WhitePulse pulse{begin, MatrixXd(end - begin, joints()), variance};
     for (int j = 0; j < joints(); ++j) {
       const VectorXd torque =

@@ -24,17 +24,16 @@ JointNoise wandering_noise(Eigen::Index order) {
   return with_autocovariance(white, covariance);
 }
 
-/// Returns the autocovariance of an autoregression up to any lag, from its first lags.
+/// Returns the autocovariance of an autoregression at a lag, by its response to one innovation.
 double covariance_at(const JointNoise& noise, Eigen::Index lag) {
-  const VectorXd first = autocovariance(noise);
-  std::vector<double> all(first.begin(), first.end());
-  while (std::ssize(all) <= lag) {
-    double next = 0.0;
-    for (Eigen::Index i = 1; i < noise.filter.size(); ++i)
-      next -= noise.filter[i] * all[all.size() - static_cast<std::size_t>(i)];
-    all.push_back(next);
+  constexpr Eigen::Index kLong = 2000;
+  VectorXd response = VectorXd::Zero(kLong);
+  for (Eigen::Index k = 0; k < kLong; ++k) {
+    response[k] = k == 0 ? noise.innovation : 0.0;
+    for (Eigen::Index i = 1; i < noise.filter.size() && i <= k; ++i)
+      response[k] -= noise.filter[i] * response[k - i];
   }
-  return all[static_cast<std::size_t>(lag)];
+  return response.head(kLong - lag).dot(response.tail(kLong - lag));
 }
 
 /// Returns the covariance of the rows with weight, with their standard deviations.
@@ -106,6 +105,19 @@ TEST(Noise, ColumnsThatBeginLaterAreWhitenedLikeWholeOnes) {
   x.topRows(11).setZero();
   const Whitener white(std, noise);
   EXPECT_TRUE(white.of(x.bottomRows(kRows - 11), 11).isApprox(white(x).bottomRows(kRows - 11), 1e-12));
+}
+
+TEST(Noise, ARowIsContainedInTheNextThreeWithWeight) {
+  VectorXd std = VectorXd::Ones(kRows);
+  std[11] = kNoWeight;
+  const Whitener white(std, wandering_noise(3));
+  MatrixXd x = MatrixXd::Zero(kRows, 1);
+  x(9, 0) = 1.0;
+  const MatrixXd whitened = white(x);
+  EXPECT_EQ(white.reach(10), 14);
+  EXPECT_NE(whitened(13, 0), 0.0);
+  EXPECT_TRUE(whitened.bottomRows(kRows - 14).isZero(0.0));
+  EXPECT_EQ(white.reach(kRows - 1), kRows);
 }
 
 }  // namespace
