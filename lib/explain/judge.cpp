@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/explain/judge.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
