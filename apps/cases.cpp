@@ -35,7 +35,7 @@ CLI::App* add_action(CLI::App* cases, Program& program, const Arguments& argumen
 
 void add_label(CLI::App* command, const Arguments& arguments, const std::string& what) {
   command->add_option("--fault", arguments->fault, what)->type_name("KIND");
-  command->add_option("--joint", arguments->joint, "Joint of that fault, from 1")
+  command->add_option("--joint", arguments->joint_number, "Joint of that fault, from 1")
       ->check(CLI::NonNegativeNumber);
 }
 

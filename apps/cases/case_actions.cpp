@@ -115,7 +115,7 @@ bool is_asked_for(const CaseBase& base, const Case& c, const CasesArguments& arg
     return false;
   if (!arguments.outcome.empty() && c.outcome != case_outcome_from(arguments.outcome)) return false;
   if (!arguments.fault.empty() && c.label.kind != fault_kind_from(arguments.fault)) return false;
-  return arguments.joint == 0 || c.label.joint == arguments.joint;
+  return arguments.joint_number == 0 || c.label.joint == Joint::numbered(arguments.joint_number);
 }
 
 /// Changes the base in one transaction; the answer is the case whose id `change` returns.
@@ -154,9 +154,9 @@ std::string CasesArguments::path() const {
 }
 
 std::optional<FaultLabel> CasesArguments::label(const CaseBase& base) const {
-  if (fault.empty() && joint == 0) return {};
+  if (fault.empty() && joint_number == 0) return {};
   if (fault.empty()) throw Error(ErrorCode::usage, "--joint", "needs --fault KIND as well");
-  const FaultLabel label = with_tip({fault_kind_from(fault), joint}, joints_of(base));
+  const FaultLabel label = with_tip({fault_kind_from(fault), Joint::numbered(joint_number)}, joints_of(base));
   check_label(base, label, "--fault " + label_text(label));
   return label;
 }
@@ -197,7 +197,7 @@ CasesAnswer confirm_case(const CasesArguments& arguments) {
 CasesAnswer reject_case(const CasesArguments& arguments) {
   return changed_by(arguments, [&](CaseBase& base) {
     const Case& c = base.at(arguments.id);
-    const FaultLabel was = arguments.label(base).value_or(FaultLabel{FaultKind::unknown, 0});
+    const FaultLabel was = arguments.label(base).value_or(FaultLabel{FaultKind::unknown});
     base.reject(c.id, was, arguments.done, signature_for(arguments, c, CaseOutcome::rejected, was));
     return arguments.id;
   });

@@ -21,7 +21,7 @@ struct CasesArguments : ModelPaths {
   std::int64_t id = 0;
   std::string fault, outcome, origin, done, by, date, robot, diagnosis, file = "-";
   std::string diagnosis_text;  ///< a diagnosis as JSON instead of the file `diagnosis`
-  int joint = 0, fault_id = 1;
+  int joint_number = 0, fault_id = 1;
   bool replace = false, merge = false, confirmed = false;
 
   /// Path of the case base. Throws Error(usage) unless either it or its model was given.

@@ -36,8 +36,9 @@ const char* unit_of(Quantity quantity, AxisKind axis) {
 /// Returns the unit of a channel; the units of both kinds of axis if no robot with that joint is given.
 std::string unit_of(Channel channel, const std::optional<Robot>& robot) {
   const Quantity quantity = channel.quantity;
-  if (quantity == Quantity::time || (robot && channel.joint <= robot->joints()))
-    return unit_of(quantity, channel.joint > 0 ? robot->chain.geometry[channel.joint - 1].kind : AxisKind{});
+  if (quantity == Quantity::time || (robot && channel.joint.index() < robot->joints()))
+    return unit_of(quantity,
+                   channel.joint.is_none() ? AxisKind{} : robot->chain.geometry[channel.joint.index()].kind);
   return std::string(unit_of(quantity, AxisKind::revolute)) + " or " + unit_of(quantity, AxisKind::prismatic);
 }
 

@@ -32,7 +32,7 @@ std::string unit_in(const Inspection& inspection, const std::string& name) {
 }
 
 std::vector<ChannelGroup> groups_of(const Inspection& inspection) {
-  std::map<std::pair<int, Quantity>, ChannelGroup> joints;
+  std::map<std::pair<Joint, Quantity>, ChannelGroup> joints;
   std::vector<ChannelGroup> others;
   for (const OverviewChannel& channel : inspection.overview.channels) {
     const auto known = channel.canonical ? canonical_channel(channel.name) : std::nullopt;

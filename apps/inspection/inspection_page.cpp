@@ -122,11 +122,11 @@ std::string channels(const Inspection& inspection, int level) {
 
 std::string joints(const Inspection& inspection) {
   std::vector<HtmlRow> rows;
-  for (std::size_t j = 0; j < inspection.checkup.joints.size(); ++j) {
+  for (int j = 0; j < std::ssize(inspection.checkup.joints); ++j) {
     const auto& [velocity, torque] = inspection.checkup.joints[j];
-    rows.push_back({std::to_string(j + 1), value_text(velocity.rms_ratio), value_text(velocity.delay_rows),
-                    velocity.is_difference ? "yes" : "no", value_text(torque.correlation),
-                    value_text(torque.delay_rows)});
+    rows.push_back({fmt::format("{}", Joint::at(j)), value_text(velocity.rms_ratio),
+                    value_text(velocity.delay_rows), velocity.is_difference ? "yes" : "no",
+                    value_text(torque.correlation), value_text(torque.delay_rows)});
   }
   return html_table(FactTable{"Velocity against the position's change, torque against acceleration",
                               {"joint", "velocity, times", "velocity late, rows", "computed from position",

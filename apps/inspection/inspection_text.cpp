@@ -55,19 +55,19 @@ std::string gap_lines(const Inspection& inspection) {
   return text;
 }
 
-std::string joint_line(const JointCheckup& joint, std::size_t number) {
+std::string joint_line(const JointCheckup& checkup, Joint joint) {
   std::vector<std::string> words;
-  const VelocityRelated& velocity = joint.velocity;
+  const VelocityRelated& velocity = checkup.velocity;
   if (!std::isnan(velocity.rms_ratio))
     words.push_back(fmt::format("velocity is {:.3g} x the position's change", velocity.rms_ratio));
   if (velocity.is_difference) words.push_back("and was computed from it");
   if (!std::isnan(velocity.delay_rows)) words.push_back(fmt::format("{:.1f} rows late", velocity.delay_rows));
-  if (!std::isnan(joint.torque.correlation))
-    words.push_back(fmt::format("torque correlates with acceleration ({:.2f})", joint.torque.correlation));
-  if (!std::isnan(joint.torque.delay_rows))
-    words.push_back(fmt::format("{:.1f} +- {:.1f} rows late", joint.torque.delay_rows,
-                                joint.torque.delay_uncertainty_rows));
-  return words.empty() ? "" : fmt::format("  joint {}   {}\n", number, fmt::join(words, ", "));
+  if (!std::isnan(checkup.torque.correlation))
+    words.push_back(fmt::format("torque correlates with acceleration ({:.2f})", checkup.torque.correlation));
+  if (!std::isnan(checkup.torque.delay_rows))
+    words.push_back(fmt::format("{:.1f} +- {:.1f} rows late", checkup.torque.delay_rows,
+                                checkup.torque.delay_uncertainty_rows));
+  return words.empty() ? "" : fmt::format("  joint {}   {}\n", joint, fmt::join(words, ", "));
 }
 
 std::string analysis_line(const PossibleAnalysis& analysis, bool color) {
@@ -144,8 +144,8 @@ std::string inspection_text(const Inspection& inspection, bool color) {
   std::string text = head_line(inspection, color) + "  " +
                      painted(brief(verdict_sentence_of(inspection)), verdict_paint(inspection), color) +
                      "\n" + time_line(inspection) + gap_lines(inspection) + channel_lines(inspection, color);
-  for (std::size_t j = 0; j < inspection.checkup.joints.size(); ++j)
-    text += joint_line(inspection.checkup.joints[j], j + 1);
+  for (int j = 0; j < std::ssize(inspection.checkup.joints); ++j)
+    text += joint_line(inspection.checkup.joints[j], Joint::at(j));
   for (const std::string& lack : inspection.lacking) text += "  lacks " + lack + "\n";
   for (const Issue& issue : inspection.issues.all()) text += issue_line(issue, color);
   for (const PossibleAnalysis& analysis : inspection.analyses) text += analysis_line(analysis, color);

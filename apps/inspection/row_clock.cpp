@@ -35,7 +35,7 @@ void RowClock::add(const RawBlock& block) {
   rows_.resize(block.rows);
   for (int i = 0; i < block.rows; ++i) rows_[i] = static_cast<double>(block.first_row + i);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const int joint = static_cast<int>(j) + 1;
+    const Joint joint = Joint::at(static_cast<int>(j));
     const std::vector<double> q = values_of(block, {Quantity::q, joint}),
                               dq = values_of(block, {Quantity::dq, joint});
     if (!q.empty() && !dq.empty()) joints_[j].add(rows_, q, dq);

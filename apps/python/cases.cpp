@@ -37,7 +37,7 @@ CasesArguments arguments_from(const py::dict& given) {
   take(given, "cases", arguments.cases);
   take(given, "id", arguments.id);
   take(given, "fault", arguments.fault);
-  take(given, "joint", arguments.joint);
+  take(given, "joint", arguments.joint_number);
   take(given, "outcome", arguments.outcome);
   take(given, "origin", arguments.origin);
   take(given, "done", arguments.done);

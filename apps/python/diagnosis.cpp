@@ -93,9 +93,9 @@ py::dict window_arrays(const CurveWindow& window) {
   const auto bins = static_cast<std::size_t>(window.bins);
   out["t"] = times(window, 2 * bins);
   out["t_residual"] = times(window, bins);
-  for (std::size_t j = 0; j < window.joints.size(); ++j) {
+  for (int j = 0; j < std::ssize(window.joints); ++j) {
     const JointCurves& joint = window.joints[j];
-    const std::string number = std::to_string(j + 1);
+    const std::string number = std::to_string(Joint::at(j).number());
     put(out, "q" + number, joint.q.values);
     put(out, "q" + number + "_predicted", joint.q_predicted.values);
     put(out, "dq" + number, joint.dq.values);

@@ -41,7 +41,7 @@ std::vector<LogLabel> labels_of(const LearnCall& call) {
   if (!call.label_file.empty()) labels = read_labels(call.label_file);
   for (const auto& [name, label] : call.labels) {
     const auto& [fault, joint, onset_s] = label;
-    labels.push_back({name, {fault_kind_from(fault), joint}, onset_s});
+    labels.push_back({name, {fault_kind_from(fault), Joint::numbered(joint)}, onset_s});
   }
   return labels;
 }

@@ -50,8 +50,8 @@ NetworkPort of_joints(const Model& model, const std::string& name, const char* t
                       std::string what) {
   NetworkPort port{.name = name, .what = std::move(what)};
   const auto& geometry = model.robot.chain.geometry;
-  for (std::size_t j = 0; j < geometry.size(); ++j) {
-    port.columns.push_back(name + std::to_string(j + 1));
+  for (int j = 0; j < std::ssize(geometry); ++j) {
+    port.columns.push_back(name + std::to_string(Joint::at(j).number()));
     port.units.emplace_back(geometry[j].kind == AxisKind::revolute ? turning : sliding);
   }
   return port;

@@ -73,7 +73,8 @@ std::vector<std::string> names_of(const RawExcerpt& excerpt) {
 ColumnMap map_with(bool row_number, bool any_torque) {
   ColumnMap map;
   if (row_number) map["t"] = {.name = kRowNumberName};
-  for (int j = 1; any_torque && j <= kMaxJoints; ++j) map[to_string({Quantity::tau, j})] = {.unit = "N m"};
+  for (int j = 0; any_torque && j < kMaxJoints; ++j)
+    map[to_string({Quantity::tau, Joint::at(j)})] = {.unit = "N m"};
   return map;
 }
 
@@ -155,7 +156,7 @@ std::vector<GuessedChannel> by_derivatives(const RawExcerpt& excerpt, int time) 
   }
   std::vector<GuessedChannel> found;
   for (const auto& [a, velocity] : velocity_of) {
-    const int joint = static_cast<int>(found.size()) / 2 + 1;
+    const Joint joint = Joint::at(static_cast<int>(found.size()) / 2);
     const std::string why = fmt::format(
         "? not by its name, but by the data: column {} is the derivative of column {} (correlation {:.3f})",
         velocity.first + 1, a + 1, velocity.second);
@@ -192,7 +193,7 @@ std::vector<GuessedChannel> by_numbers(const RawExcerpt& excerpt, int time) {
   if (largest == families.end() || largest->second.size() < 2) return found;
   if (std::none_of(largest->second.begin(), largest->second.end(), moves)) return found;
   for (const auto& [number, column] : largest->second)
-    found.push_back({{Quantity::q, static_cast<int>(found.size()) + 1},
+    found.push_back({{Quantity::q, Joint::at(static_cast<int>(found.size()))},
                      column,
                      {},
                      "? neither name nor data identify it as a position; it is numbered like joints"});
@@ -253,7 +254,7 @@ std::vector<GuessedChannel> guess_columns(const RawExcerpt& excerpt) {
   found.insert(found.begin(), stamp);
   std::sort(found.begin(), found.end(),
             [](const GuessedChannel& a, const GuessedChannel& b) { return a.channel < b.channel; });
-  std::erase_if(found, [](const GuessedChannel& one) { return one.channel.joint > kMaxJoints; });
+  std::erase_if(found, [](const GuessedChannel& one) { return one.channel.joint.index() >= kMaxJoints; });
   return found;
 }
 

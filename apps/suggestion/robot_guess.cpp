@@ -57,35 +57,36 @@ class Guesser {
   RobotGuess run() {
     guess_.channels = guess_columns(excerpt_);
     for (const GuessedChannel& one : guess_.channels)
-      if (one.channel.quantity == Quantity::q) joints_ = std::max(joints_, one.channel.joint);
+      if (one.channel.quantity == Quantity::q) joints_ = std::max(joints_, one.channel.joint.number());
     if (joints_ > kMaxJoints) {
       guess_.untold.push_back(fmt::format("further joints: the log has {} joints; only the first {} are used",
                                           joints_, kMaxJoints));
       joints_ = kMaxJoints;
       std::erase_if(guess_.channels,
-                    [](const GuessedChannel& one) { return one.channel.joint > kMaxJoints; });
+                    [](const GuessedChannel& one) { return one.channel.joint.index() >= kMaxJoints; });
     }
     take_columns_left();
     time_ = values_of(excerpt_, guess_.channels.front());
-    for (int j = 1; j <= joints_; ++j)
+    for (int j = 0; j < joints_; ++j)
       numbers_.push_back(
           joint_numbers(time_, raw(Quantity::q, j), raw(Quantity::dq, j), raw(Quantity::tau, j)));
     guess_time();
     guess_units();
-    for (int j = 1; j <= joints_; ++j)
-      guess_.axes.push_back(guess_axis(numbers_[j - 1], units_[j - 1], header_unit(find(Quantity::q, j))));
+    for (int j = 0; j < joints_; ++j)
+      guess_.axes.push_back(guess_axis(numbers_[j], units_[j], header_unit(find(Quantity::q, j))));
     guess_torques();
     return std::move(guess_);
   }
 
  private:
-  GuessedChannel* find(Quantity quantity, int joint) {
+  /// The channel of joint `j` (from 0); null if none was found.
+  GuessedChannel* find(Quantity quantity, int j) {
     for (GuessedChannel& one : guess_.channels)
-      if (one.channel == Channel{quantity, joint}) return &one;
+      if (one.channel == Channel{quantity, Joint::at(j)}) return &one;
     return nullptr;
   }
-  std::vector<double> raw(Quantity quantity, int joint) {
-    const GuessedChannel* one = find(quantity, joint);
+  std::vector<double> raw(Quantity quantity, int j) {
+    const GuessedChannel* one = find(quantity, j);
     return one ? values_of(excerpt_, *one) : std::vector<double>();
   }
   std::string header_unit(const GuessedChannel* one) const {
@@ -115,8 +116,8 @@ class Guesser {
     time_factor_ = si_factor(unit.unit).value_or(1.0);
   }
 
-  void set_unit(Quantity quantity, int joint, const GuessedUnit& unit) {
-    GuessedChannel* one = find(quantity, joint);
+  void set_unit(Quantity quantity, int j, const GuessedUnit& unit) {
+    GuessedChannel* one = find(quantity, j);
     if (!one) return;
     const std::string header = header_unit(one);
     if (!header.empty()) {
@@ -128,9 +129,9 @@ class Guesser {
   }
 
   void guess_units(OtherAngles others) {
-    for (int j = 1; j <= joints_; ++j)
-      units_[j - 1] = guess_joint_units(numbers_[j - 1], time_factor_, header_unit(find(Quantity::q, j)),
-                                        header_unit(find(Quantity::dq, j)), others);
+    for (int j = 0; j < joints_; ++j)
+      units_[j] = guess_joint_units(numbers_[j], time_factor_, header_unit(find(Quantity::q, j)),
+                                    header_unit(find(Quantity::dq, j)), others);
   }
 
   /// Returns degrees if the values of some joint certainly are, or no other joint moves far in radians.
@@ -151,8 +152,8 @@ class Guesser {
     units_.resize(numbers_.size());
     guess_units(OtherAngles::unknown);
     guess_units(other_angles());
-    for (int j = 1; j <= joints_; ++j) {
-      const GuessedUnits& units = units_[j - 1];
+    for (int j = 0; j < joints_; ++j) {
+      const GuessedUnits& units = units_[j];
       set_unit(Quantity::q, j, units.position), set_unit(Quantity::q_ref, j, units.position);
       set_unit(Quantity::dq, j, units.velocity), set_unit(Quantity::dq_ref, j, units.velocity);
       if (!units.flipped) continue;
@@ -173,8 +174,7 @@ class Guesser {
     const std::vector<double> time = scaled(time_, time_factor_);
     const double period_s = median_step(time);
     std::vector<std::vector<double>> q;
-    for (int j = 1; j <= joints_; ++j)
-      q.push_back(scaled(raw(Quantity::q, j), units_[j - 1].position_factor));
+    for (int j = 0; j < joints_; ++j) q.push_back(scaled(raw(Quantity::q, j), units_[j].position_factor));
     if (!(period_s > 0.0)) return {};
     TorqueRelation relation(joints_, period_s);
     for (std::size_t i = 0; i < std::min(time.size(), most_rows); ++i) relation.add(time[i], q, tau, i);
@@ -182,9 +182,9 @@ class Guesser {
   }
 
   void guess_torques() {
-    if (!find(Quantity::tau, 1)) find_torques();
+    if (!find(Quantity::tau, 0)) find_torques();
     std::vector<std::vector<double>> tau;
-    for (int j = 1; j <= joints_; ++j)
+    for (int j = 0; j < joints_; ++j)
       if (find(Quantity::tau, j)) tau.push_back(raw(Quantity::tau, j));
     if (tau.empty()) {
       guess_.untold.push_back(
@@ -197,7 +197,7 @@ class Guesser {
     if (std::ssize(tau) < joints_) return;
     const auto related = torques_related(tau);
     for (std::size_t j = 0; j < related.size(); ++j) {
-      GuessedChannel& one = *find(Quantity::tau, static_cast<int>(j) + 1);
+      GuessedChannel& one = *find(Quantity::tau, static_cast<int>(j));
       const TorqueRelated& torque = related[j];
       if (std::isnan(torque.correlation)) continue;
       one.reason += fmt::format("; correlation with acceleration {:.2f}", torque.correlation);
@@ -233,7 +233,7 @@ class Guesser {
   void add_torques(const std::vector<int>& columns, const std::string& reason) {
     guess_.untold.push_back("the torque for a value of 1 in the torque columns: their names give no unit");
     for (std::size_t j = 0; j < columns.size(); ++j)
-      guess_.channels.push_back({{Quantity::tau, static_cast<int>(j) + 1}, columns[j], {}, reason});
+      guess_.channels.push_back({{Quantity::tau, Joint::at(static_cast<int>(j))}, columns[j], {}, reason});
     std::sort(guess_.channels.begin(), guess_.channels.end(),
               [](const GuessedChannel& a, const GuessedChannel& b) { return a.channel < b.channel; });
   }
@@ -241,7 +241,7 @@ class Guesser {
   /// If names give no meaning: takes the remaining columns as torques when they are as many as the joints.
   void take_columns_left() {
     const std::vector<int> left = columns_left();
-    if (is_named() || !find(Quantity::dq, 1) || std::ssize(left) != joints_) return;
+    if (is_named() || !find(Quantity::dq, 0) || std::ssize(left) != joints_) return;
     add_torques(left,
                 "? as many columns as joints have no other meaning; they are used as the torques in their "
                 "order");
@@ -251,14 +251,14 @@ class Guesser {
   void find_torques() {
     std::vector<int> left = columns_left(), found;
     left.resize(std::min(left.size(), kSearchedColumns));
-    for (int j = 1; j <= joints_; ++j) {
+    for (int j = 0; j < joints_; ++j) {
       auto best = left.end();
       double most = is_named() ? kSurelyWith : TorqueRelated::kClear;
       for (auto at = left.begin(); at != left.end(); ++at) {
         const auto related = torques_related(
             std::vector<std::vector<double>>(static_cast<std::size_t>(joints_), excerpt_.values[*at]),
             kSearchedRows);
-        const double share = related.empty() ? NAN : related[j - 1].correlation;
+        const double share = related.empty() ? NAN : related[j].correlation;
         if (std::abs(share) > most) most = std::abs(share), best = at;
       }
       if (best == left.end()) return;

@@ -38,8 +38,8 @@ std::string robot_guess_text(const RobotGuess& guess, const RawExcerpt& excerpt)
       "order.\n\n";
   text += "name = " + toml_quoted(valid_utf8(stem)) + "\n";
   std::string axes;
-  for (std::size_t j = 0; j < guess.axes.size(); ++j) {
-    text += comment(fmt::format("joint {} {}: {}", j + 1, guess.axes[j].slides ? "slides" : "turns",
+  for (int j = 0; j < std::ssize(guess.axes); ++j) {
+    text += comment(fmt::format("joint {} {}: {}", Joint::at(j), guess.axes[j].slides ? "slides" : "turns",
                                 guess.axes[j].reason));
     axes += guess.axes[j].slides ? 'P' : 'R';
   }

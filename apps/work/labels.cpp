@@ -58,12 +58,12 @@ double number(const std::string& cell, const std::string& where) {
   return value;
 }
 
-int joint_number(const std::string& cell, const std::string& where) {
+Joint joint_from(const std::string& cell, const std::string& where) {
   const double value = number(cell, where);
   if (!(value >= 0.0 && value <= 1000.0 && value == std::floor(value)))
     throw Error(ErrorCode::input, where,
                 "\"" + cell + "\" is not a joint; joints count from 1, and 0 means no joint");
-  return static_cast<int>(value);
+  return Joint::numbered(static_cast<int>(value));
 }
 
 LogLabel label_from(const std::vector<std::string>& cells, const LabelColumns& at, const std::string& where) {
@@ -76,7 +76,7 @@ LogLabel label_from(const std::vector<std::string>& cells, const LabelColumns& a
   } catch (const Error& error) {
     throw Error(ErrorCode::input, where + ", column fault", error.message());
   }
-  label.label.joint = joint_number(cells[at.joint], where + ", column joint");
+  label.label.joint = joint_from(cells[at.joint], where + ", column joint");
   label.onset_s = number(cells[at.onset], where + ", column onset_s");
   return label;
 }

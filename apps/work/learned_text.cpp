@@ -114,8 +114,8 @@ std::string relations_text(const Model& model) {
     text += fmt::format(
         "Joint {}: the {} explains {:.2f} % of held-out logs; a deviation is detected from {:.3g} {} over "
         "{:g} s on.\n",
-        relation.joint + 1, relation_name(relation), 100.0 * relation.r2, allowed_mean(relation, middle),
-        unit_of(relation, model.robot.chain.geometry[relation.joint].kind),
+        relation.joint, relation_name(relation), 100.0 * relation.r2, allowed_mean(relation, middle),
+        unit_of(relation, model.robot.chain.geometry[relation.joint.index()].kind),
         relation.windows[middle].window_s);
   }
   return text;

@@ -43,7 +43,7 @@ void check_can_carry_over(const std::string& case_base, int joints) {
         "already exists, but its confirmed cases cannot be carried over: it " + error.message() + kAdvice);
   }
   for (const Case& c : there.cases())
-    if (!is_made_by_learn(c) && c.label.joint > joints)
+    if (!is_made_by_learn(c) && c.label.joint.index() >= joints)
       throw Error(ErrorCode::input, case_base,
                   fmt::format("already exists and holds case {} of joint {}, but this robot has {}{}", c.id,
                               c.label.joint, counted(joints, "joint"), kAdvice));

@@ -17,7 +17,7 @@ nlohmann::ordered_json summary(const SimulationFile& file, const RunSpec& spec, 
   nlohmann::ordered_json faults = nlohmann::ordered_json::array();
   for (const SimulatedFault& fault : run.truth)
     faults.push_back({{"kind", to_string(fault.kind)},
-                      {"joint", fault.joint},
+                      {"joint", fault.joint.number()},
                       {"onset_s", fault.onset_s},
                       {"end_s", fault.end_s},
                       {"size", fault.size}});

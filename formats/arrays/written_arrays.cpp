@@ -19,7 +19,7 @@ constexpr const char* kNotesSchema = "faultline/arrays/1";
 constexpr std::size_t kLongestPart = 40;  ///< of a channel's name; MATLAB allows names of 63
 
 std::string stem_of(Quantity quantity) {
-  const std::string name = to_string(Channel{quantity, 1});
+  const std::string name = to_string(Channel{quantity, 1_joint});
   return name.substr(0, name.size() - 1);
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <set>
@@ -131,7 +133,8 @@ void name_joint_states(const CsvLine& row, std::vector<std::string>& names) {
   const char* arrays[] = {"q", "dq", "tau"};
   for (std::size_t a = 0; a < std::size(arrays); ++a)
     for (std::size_t j = 0; j < joints; ++j)
-      names[kNamesBegin + (a + 1) * joints + j] = arrays[a] + std::to_string(j + 1);
+      names[kNamesBegin + (a + 1) * joints + j] =
+          fmt::format("{}{}", arrays[a], Joint::at(static_cast<int>(j)));
 }
 
 void name_headless(std::span<const CsvLine> rows, CsvDialect& dialect, std::vector<std::string>& names) {

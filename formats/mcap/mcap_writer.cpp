@@ -60,7 +60,7 @@ const StatesTopic kTopics[] = {{kCommandsTopic, {&Log::q_ref, &Log::dq_ref, &Log
 
 std::vector<std::string> joint_names(int joints) {
   std::vector<std::string> names;
-  for (int j = 1; j <= joints; ++j) names.push_back(fmt::format("joint{}", j));
+  for (int j = 0; j < joints; ++j) names.push_back(fmt::format("joint{}", Joint::at(j)));
   return names;
 }
 

@@ -195,8 +195,8 @@ class Layouter {
   /// Returns the joints of the log as indices into the stream; empty when it lacks some.
   std::vector<int> same_joints(const JointStream& stream, const std::vector<int>& order) const {
     std::vector<int> same;
-    for (const int joint : order) {
-      same.push_back(index_of(stream.joints, streams_[layout_.main].joints[joint]));
+    for (const int j : order) {
+      same.push_back(index_of(stream.joints, streams_[layout_.main].joints[j]));
       if (same.back() < 0) return {};
     }
     return same;
@@ -210,24 +210,24 @@ class Layouter {
       columns.assign(stream.joints.size(), -1);
       if (!stream.has[a]) continue;
       for (int j = 0; j < std::ssize(joints); ++j)
-        add_column(columns[joints[j]], stream, joints[j], kArrays[a], Channel{quantities[a], j + 1});
+        add_column(columns[joints[j]], stream, joints[j], kArrays[a], Channel{quantities[a], Joint::at(j)});
       for (int j = 0; j < std::ssize(stream.joints); ++j)
         if (columns[j] < 0) add_column(columns[j], stream, j, kArrays[a], std::nullopt);
     }
   }
 
-  void add_column(int& place, const JointStream& stream, int joint, const char* array,
+  void add_column(int& place, const JointStream& stream, int j, const char* array,
                   std::optional<Channel> meaning) {
     if (place >= 0) return;  // a joint named twice in [log] joints
     place = static_cast<int>(layout_.columns.size());
-    RawColumn column = column_of(stream, joint, array);
+    RawColumn column = column_of(stream, j, array);
     column.meaning = meaning;
     layout_.columns.push_back(column);
   }
 
   /// Names a column by topic, joint and array; extra channels written by this program get their own name.
-  RawColumn column_of(const JointStream& stream, int joint, const char* array) const {
-    const std::string &topic = topics_[stream.topic].name, &name = stream.joints[joint];
+  RawColumn column_of(const JointStream& stream, int j, const char* array) const {
+    const std::string &topic = topics_[stream.topic].name, &name = stream.joints[j];
     if (topic != kExtraTopic) return {topic + "/" + name + "/" + array, ""};
     const NameAndUnit parts = split_unit(name);
     return {parts.name, parts.unit};

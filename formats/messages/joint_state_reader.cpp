@@ -288,8 +288,8 @@ class JointStateReader : public RawReader {
       const JointColumns& columns = layout_.of_stream[placing.stream][a];
       const std::size_t count = std::min(state_.arrays[a].count, placing.joint_of.size());
       for (std::size_t i = 0; i < count; ++i)
-        if (const int joint = placing.joint_of[i]; joint >= 0 && columns[joint] >= 0)
-          held_[columns[joint]] = state_.arrays[a][i];
+        if (const int j = placing.joint_of[i]; j >= 0 && columns[j] >= 0)
+          held_[columns[j]] = state_.arrays[a][i];
     }
   }
 

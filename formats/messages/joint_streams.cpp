@@ -121,7 +121,7 @@ void JointStreams::place(Pattern& pattern) const {
   const auto all = [](const auto& values, auto holds) {
     return std::all_of(values.begin(), values.end(), holds);
   };
-  placing.complete = all(placing.joint_of, [](int joint) { return joint >= 0; }) &&
+  placing.complete = all(placing.joint_of, [](int j) { return j >= 0; }) &&
                      all(placing.is_present, [](bool present) { return present; });
 }
 

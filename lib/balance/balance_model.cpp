@@ -63,7 +63,7 @@ std::vector<Eigen::MatrixXd> day_columns(const BalanceRows& rows, const BalanceM
   }
   const int learned = layout.ripples - day.ripples;
   for (int r = 0; r < day.ripples; ++r) {
-    const int j = model.setting.ripples[learned + r].joint;
+    const int j = model.setting.ripples[learned + r].joint.index();
     out[j].middleCols<2>(day.ripple(r)) = rows.column[j].middleCols<2>(layout.ripple_sine(learned + r));
   }
   return out;
@@ -86,13 +86,13 @@ bool is_rotor(const RigidColumns& rigid, int parameter) {
   return rigid.lift.col(parameter).head(rigid.joints() * kLinkParameters).isZero(0.0);
 }
 
-bool carries_weight(const RigidColumns& rigid, int joint) {
-  const JointGeometry& axis = rigid.chain.geometry[joint];
+bool carries_weight(const RigidColumns& rigid, int j) {
+  const JointGeometry& axis = rigid.chain.geometry[j];
   const double g = rigid.chain.gravity.norm();
   if (axis.kind != AxisKind::prismatic || g == 0.0) return false;
-  for (int j = 0; j < joint; ++j)  // if a joint tilts the slide, weight and offset differ
-    if (rigid.chain.geometry[j].kind == AxisKind::revolute &&
-        std::abs(rigid.chain.geometry[j].axis.dot(rigid.chain.gravity)) < kAlong * g)
+  for (int i = 0; i < j; ++i)  // if a joint tilts the slide, weight and offset differ
+    if (rigid.chain.geometry[i].kind == AxisKind::revolute &&
+        std::abs(rigid.chain.geometry[i].axis.dot(rigid.chain.gravity)) < kAlong * g)
       return false;
   return std::abs(axis.axis.dot(rigid.chain.gravity)) > kAlong * g;
 }

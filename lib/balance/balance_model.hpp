@@ -39,8 +39,8 @@ struct BalanceModel {
 
   int joints() const { return setting.joints(); }
   ColumnLayout layout() const { return layout_of(rigid, setting); }
-  /// Compliance of the gear spring of joint `joint` (from 0), rad per N m or m per N; 0: rigid.
-  double compliance(int joint) const { return std::max(theta[layout().spring(joint)], 0.0); }
+  /// Compliance of the gear spring of joint `j` (from 0), rad per N m or m per N; 0: rigid.
+  double compliance(int j) const { return std::max(theta[layout().spring(j)], 0.0); }
 };
 
 /// Indices of the effects of a day (equation (2) of docs/how-it-works.md): relative change of each base
@@ -53,14 +53,14 @@ struct DayLayout {
   int base = 0, joints = 0, drives = 0, ripples = 0;
 
   int inertia(int parameter) const { return parameter; }
-  int friction(int joint) const { return base + joint; }
-  int friction_slope(int joint) const { return base + joints + joint; }
-  int gain(int joint) const { return base + 2 * joints + joint; }
-  int offset(int joint) const { return base + 3 * joints + joint; }
-  int friction_width(int joint) const { return base + 4 * joints + joint; }
-  int viscous_excess(int joint) const { return base + 5 * joints + joint; }
-  int direction(int joint) const { return base + 6 * joints + joint; }
-  int load(int joint) const { return base + 7 * joints + joint; }
+  int friction(int j) const { return base + j; }
+  int friction_slope(int j) const { return base + joints + j; }
+  int gain(int j) const { return base + 2 * joints + j; }
+  int offset(int j) const { return base + 3 * joints + j; }
+  int friction_width(int j) const { return base + 4 * joints + j; }
+  int viscous_excess(int j) const { return base + 5 * joints + j; }
+  int direction(int j) const { return base + 6 * joints + j; }
+  int load(int j) const { return base + 7 * joints + j; }
   int delay() const { return base + 8 * joints; }
   int drive_friction(int k) const { return delay() + 1 + k; }
   int ripple(int k) const { return drive_friction(drives) + 2 * k; }
@@ -89,6 +89,6 @@ Eigen::MatrixXd payload_torque(const BalanceRows& rows, const Eigen::MatrixXd& p
 bool is_rotor(const RigidColumns& rigid, int parameter);
 
 /// Returns whether gain and offset of a joint's torque look like a mass: a slide along gravity.
-bool carries_weight(const RigidColumns& rigid, int joint);
+bool carries_weight(const RigidColumns& rigid, int j);
 
 }  // namespace faultline

@@ -37,7 +37,7 @@ VectorXd MeasuredResidual::drive(int j, const VectorXd& speed, const VectorXd& q
   out.array() -= theta_[layout_.offset(j)];
   for (int r = 0; r < layout_.ripples; ++r) {
     const auto [joint, rate] = setting_.ripples[r];
-    if (joint != j) continue;
+    if (joint != Joint::at(j)) continue;
     const auto t = theta_.segment<4>(layout_.ripple(r));
     for (Index k = 0; k < out.size(); ++k) {
       const auto [s, c] = elementary::sin_cos(rate * q[k]);
@@ -47,7 +47,7 @@ VectorXd MeasuredResidual::drive(int j, const VectorXd& speed, const VectorXd& q
   return out;
 }
 
-MatrixXd MeasuredResidual::carried(const VectorXd& q_of_joint, const VectorXd& velocity, int joint,
+MatrixXd MeasuredResidual::carried(const VectorXd& q_of_joint, const VectorXd& velocity, int j,
                                    int from) const {
   const Index samples = q_of_joint.size();
   MatrixXd out(samples - 1 - from, layout_.joints);
@@ -56,8 +56,8 @@ MatrixXd MeasuredResidual::carried(const VectorXd& q_of_joint, const VectorXd& v
   } before, now;
   for (Index k = from; k < samples; ++k) {
     JointVector q = q_.col(k), dq = row_of(frame_.at.velocity, k);
-    q[joint] = q_of_joint[k];
-    dq[joint] = velocity[k];
+    q[j] = q_of_joint[k];
+    dq[j] = velocity[k];
     dynamics_.momentum_and_force(q, dq, now.momentum, now.force);
     if (k > from)
       out.row(k - 1 - from) =
@@ -68,10 +68,10 @@ MatrixXd MeasuredResidual::carried(const VectorXd& q_of_joint, const VectorXd& v
   return out;
 }
 
-MatrixXd MeasuredResidual::of_drives(const VectorXd& velocity, const VectorXd& speed, int joint) const {
+MatrixXd MeasuredResidual::of_drives(const VectorXd& velocity, const VectorXd& speed, int j) const {
   MatrixXd velocities = frame_.at.velocity, speeds = frame_.at.link_speed;
-  velocities.col(joint) = velocity;
-  speeds.col(joint) = speed;
+  velocities.col(j) = velocity;
+  speeds.col(j) = speed;
   MatrixXd out = MatrixXd::Zero(speeds.rows(), speeds.cols());
   for (int d = 0; d < layout_.drives; ++d) {
     const CoupledDrive& drive = setting_.drives[d];
@@ -82,28 +82,28 @@ MatrixXd MeasuredResidual::of_drives(const VectorXd& velocity, const VectorXd& s
   return out;
 }
 
-MatrixXd MeasuredResidual::of(const MeasuredMotion& moved, int joint, int first_row) const {
+MatrixXd MeasuredResidual::of(const MeasuredMotion& moved, int j, int first_row) const {
   const CoarseGrid& grid = frame_.grid;
   const Index samples = moved.q.size();
   const int from = first_row * grid.step;  // first sample within reach of the first row
-  const VectorXd velocity = fused_velocity(moved, setting_, joint);
+  const VectorXd velocity = fused_velocity(moved, setting_, j);
   const VectorXd q_middle = 0.5 * (moved.q.head(samples - 1) + moved.q.tail(samples - 1));
-  const VectorXd speed = link_speed(velocity, frame_.at.torque.col(joint), setting_, joint);
-  const MatrixXd rigid = carried(moved.q, velocity, joint, from);
+  const VectorXd speed = link_speed(velocity, frame_.at.torque.col(j), setting_, j);
+  const MatrixXd rigid = carried(moved.q, velocity, j, from);
   const auto at_rows = [&](const MatrixXd& values) {
     return smooth_at(values, frame_.kernel, grid.first, grid.step, grid.count - first_row);
   };
   MatrixXd left = drive_.bottomRows(rigid.rows());
-  left.col(joint) = drive(joint, speed, q_middle).tail(rigid.rows());
+  left.col(j) = drive(j, speed, q_middle).tail(rigid.rows());
   left -= rigid;
-  if (layout_.drives > 0) left -= of_drives(velocity, speed, joint).bottomRows(rigid.rows());
+  if (layout_.drives > 0) left -= of_drives(velocity, speed, j).bottomRows(rigid.rows());
   MatrixXd out = at_rows(left);
-  for (int j = 0; j < layout_.joints; ++j) {
-    const double load = theta_[layout_.load(j)];
+  for (int i = 0; i < layout_.joints; ++i) {
+    const double load = theta_[layout_.load(i)];
     if (load == 0.0) continue;
-    const VectorXd own = j == joint ? speed : frame_.at.link_speed.col(j);
-    const MatrixXd turning = at_rows(saturated(own.tail(rigid.rows()), setting_.friction_width[j]));
-    out.col(j) -= load * at_rows(rigid.col(j)).cwiseAbs().cwiseProduct(turning);
+    const VectorXd own = i == j ? speed : frame_.at.link_speed.col(i);
+    const MatrixXd turning = at_rows(saturated(own.tail(rigid.rows()), setting_.friction_width[i]));
+    out.col(i) -= load * at_rows(rigid.col(i)).cwiseAbs().cwiseProduct(turning);
   }
   return out;
 }

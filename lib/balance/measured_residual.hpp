@@ -16,22 +16,22 @@ class MeasuredResidual {
   MeasuredResidual(const UniformLog& log, RowSetting setting, const RigidColumns& rigid,
                    Eigen::VectorXd theta);
 
-  /// Returns the residual of the log with other measurements of joint `joint` (from 0): rows from `first_row`
+  /// Returns the residual of the log with other measurements of joint `j` (from 0): rows from `first_row`
   /// on x joints, N m or N.
-  Eigen::MatrixXd of(const MeasuredMotion& moved, int joint, int first_row = 0) const;
+  Eigen::MatrixXd of(const MeasuredMotion& moved, int j, int first_row = 0) const;
 
  private:
-  /// Returns the torque of joint `joint` minus its friction, but that by load and that of coupled drives,
+  /// Returns the torque of joint `j` minus its friction, but that by load and that of coupled drives,
   /// offset, delay and ripple, by interval.
-  Eigen::VectorXd drive(int joint, const Eigen::VectorXd& speed, const Eigen::VectorXd& q) const;
+  Eigen::VectorXd drive(int j, const Eigen::VectorXd& speed, const Eigen::VectorXd& q) const;
 
   /// Returns the torque that the gears carry for the bodies, by interval from `from` on, with another motion
-  /// of joint `joint`: intervals x joints.
-  Eigen::MatrixXd carried(const Eigen::VectorXd& q_of_joint, const Eigen::VectorXd& velocity, int joint,
+  /// of joint `j`: intervals x joints.
+  Eigen::MatrixXd carried(const Eigen::VectorXd& q_of_joint, const Eigen::VectorXd& velocity, int j,
                           int from) const;
-  /// Returns the torque of the coupled drives, by interval, with another motion of joint `joint`: intervals x
+  /// Returns the torque of the coupled drives, by interval, with another motion of joint `j`: intervals x
   /// joints.
-  Eigen::MatrixXd of_drives(const Eigen::VectorXd& velocity, const Eigen::VectorXd& speed, int joint) const;
+  Eigen::MatrixXd of_drives(const Eigen::VectorXd& velocity, const Eigen::VectorXd& speed, int j) const;
 
   RowSetting setting_;
   ColumnLayout layout_;

@@ -76,11 +76,11 @@ RowFrame row_frame(const UniformLog& log, const RowSetting& setting) {
   return {kernel, grid, intervals(log, setting)};
 }
 
-VectorXd link_speed(const VectorXd& velocity, const VectorXd& torque, const RowSetting& setting, int joint) {
+VectorXd link_speed(const VectorXd& velocity, const VectorXd& torque, const RowSetting& setting, int j) {
   const VectorXd kernel = gaussian_kernel(setting.friction_s, setting.period_s);
   VectorXd out = middle(smooth(velocity, kernel));
-  if (setting.compliance.size() > 0 && setting.compliance[joint] > 0.0)
-    out -= setting.compliance[joint] * gradient(smooth(torque, kernel), setting.period_s);
+  if (setting.compliance.size() > 0 && setting.compliance[j] > 0.0)
+    out -= setting.compliance[j] * gradient(smooth(torque, kernel), setting.period_s);
   return out;
 }
 
@@ -108,13 +108,13 @@ double velocity_reach_s(const RowSetting& setting, double share) {
   return decay > 0.0 ? setting.period_s * elementary::log(share) / elementary::log(decay) : 0.0;
 }
 
-VectorXd fused_velocity(const MeasuredMotion& reading, const RowSetting& setting, int joint) {
+VectorXd fused_velocity(const MeasuredMotion& reading, const RowSetting& setting, int j) {
   const VectorXd difference = gradient(reading.q, setting.period_s);
-  if (!setting.measures_velocity(joint) || reading.dq.size() == 0) return difference;
+  if (!setting.measures_velocity(j) || reading.dq.size() == 0) return difference;
   VectorXd off = difference - reading.dq;
   const Index last = off.size() - 1;
   if (last > 1) off[0] = off[1], off[last] = off[last - 1];  // at the ends a difference is half a sample off
-  return reading.dq + two_sided_exponential(off, setting.fusion[joint]);
+  return reading.dq + two_sided_exponential(off, setting.fusion[j]);
 }
 
 MatrixXd fused_velocity(const UniformLog& log, const RowSetting& setting) {

@@ -32,13 +32,13 @@ struct RowFrame {
 /// Returns the frame of a log. Throws Error(input) when the log is shorter than the kernels.
 RowFrame row_frame(const UniformLog& log, const RowSetting& setting);
 
-/// Returns the speed of joint `joint` (from 0) behind the spring, by interval, from the velocity by sample.
+/// Returns the speed of joint `j` (from 0) behind the spring, by interval, from the velocity by sample.
 Eigen::VectorXd link_speed(const Eigen::VectorXd& velocity, const Eigen::VectorXd& torque,
-                           const RowSetting& setting, int joint);
+                           const RowSetting& setting, int j);
 
-/// Returns the velocity of joint `joint` (from 0) in each sample: position differences at low frequencies,
+/// Returns the velocity of joint `j` (from 0) in each sample: position differences at low frequencies,
 /// the logged velocity at high ones.
-Eigen::VectorXd fused_velocity(const MeasuredMotion& reading, const RowSetting& setting, int joint);
+Eigen::VectorXd fused_velocity(const MeasuredMotion& reading, const RowSetting& setting, int j);
 
 /// Returns what inertia, viscous and Coulomb friction of a coupled drive take of the drive's torque, by
 /// interval: intervals x 3. `velocity` is that of each sample, `speed` that of the links, by joint.

@@ -4,13 +4,14 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {
 
 /// A torque that repeats with a joint's position: sine and cosine of rate * q, alone and times the torque.
 struct RippleRate {
-  int joint = 0;      ///< from 0
+  Joint joint{};
   double rate = 0.0;  ///< 1/rad or 1/m
 };
 
@@ -39,7 +40,7 @@ struct RowSetting {
 
   int joints() const { return static_cast<int>(friction_width.size()); }
   /// Whether the logged velocity of a joint (from 0) is a measurement of its own.
-  bool measures_velocity(int joint) const { return fusion.size() > 0 && fusion[joint] > 0.0; }
+  bool measures_velocity(int j) const { return fusion.size() > 0 && fusion[j] > 0.0; }
   double row_s() const { return period_s * decimation; }  ///< between two rows
 };
 
@@ -57,12 +58,12 @@ struct RigidColumns {
 struct ColumnLayout {
   int base = 0, joints = 0, drives = 0, ripples = 0;
 
-  int viscous(int joint) const { return base + joint; }
-  int coulomb(int joint) const { return base + joints + joint; }
-  int load(int joint) const { return base + 2 * joints + joint; }  ///< share of the torque that is carried
-  int offset(int joint) const { return base + 3 * joints + joint; }
-  int delay(int joint) const { return base + 4 * joints + joint; }
-  int spring(int joint) const { return base + 5 * joints + joint; }
+  int viscous(int j) const { return base + j; }
+  int coulomb(int j) const { return base + joints + j; }
+  int load(int j) const { return base + 2 * joints + j; }  ///< share of the torque that is carried
+  int offset(int j) const { return base + 3 * joints + j; }
+  int delay(int j) const { return base + 4 * joints + j; }
+  int spring(int j) const { return base + 5 * joints + j; }
   int drive(int k) const { return base + 6 * joints + 3 * k; }  ///< three: inertia, viscous, Coulomb friction
   int ripple(int k) const { return drive(drives) + 4 * k; }     ///< four: sin and cos times torque, sin, cos
   int ripple_sine(int k) const { return ripple(k) + 2; }        ///< sine alone, cosine alone

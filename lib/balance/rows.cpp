@@ -96,8 +96,8 @@ void add_spring_columns(const RowSetting& setting, const RigidColumns& rigid, co
 MatrixXd ripple_columns(const RippleRate& ripple, const Intervals& at) {
   MatrixXd out(at.q.rows(), 4);
   for (Index k = 0; k < out.rows(); ++k) {
-    const auto [s, c] = elementary::sin_cos(ripple.rate * at.q(k, ripple.joint));
-    const double tau = at.torque(k, ripple.joint);
+    const auto [s, c] = elementary::sin_cos(ripple.rate * at.q(k, ripple.joint.index()));
+    const double tau = at.torque(k, ripple.joint.index());
     out.row(k) << s * tau, c * tau, s, c;
   }
   return out;
@@ -171,7 +171,7 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
     for (int j = 0; j < n; ++j) rows.column[j].middleCols<3>(layout.drive(d)) = drive.along[j] * columns;
   }
   for (int r = 0; r < layout.ripples; ++r)
-    rows.column[setting.ripples[r].joint].middleCols<4>(layout.ripple(r)) =
+    rows.column[setting.ripples[r].joint.index()].middleCols<4>(layout.ripple(r)) =
         at_rows(ripple_columns(setting.ripples[r], at));
   rows.time_s.resize(grid.count);
   for (int m = 0; m < grid.count; ++m) rows.time_s[m] = log.time_s(grid.first + m * grid.step + 0.5);
@@ -186,10 +186,10 @@ BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const
   return rows;
 }
 
-Eigen::MatrixX2d friction_columns(const UniformLog& log, const RowSetting& setting, int joint) {
+Eigen::MatrixX2d friction_columns(const UniformLog& log, const RowSetting& setting, int j) {
   const auto [kernel, grid, at] = row_frame(log, setting);
   Eigen::MatrixX2d friction(at.q.rows(), 2);
-  friction << at.link_speed.col(joint), saturated(at.link_speed.col(joint), setting.friction_width[joint]);
+  friction << at.link_speed.col(j), saturated(at.link_speed.col(j), setting.friction_width[j]);
   return smooth_at(friction, kernel, grid.first, grid.step, grid.count);
 }
 

@@ -28,7 +28,7 @@ struct BalanceRows {
 
   int rows() const { return static_cast<int>(time_s.size()); }
   int joints() const { return static_cast<int>(torque.cols()); }
-  bool rests(int row, int joint) const { return at_rest.size() > 0 && at_rest(row, joint); }
+  bool rests(int row, int j) const { return at_rest.size() > 0 && at_rest(row, j); }
 };
 
 /// Returns the rows of one log. The columns of springs and load friction take inertia and carried torque from
@@ -36,9 +36,9 @@ struct BalanceRows {
 BalanceRows balance_rows(const UniformLog& log, const RowSetting& setting, const RigidColumns& rigid,
                          const Eigen::VectorXd& theta);
 
-/// Returns the columns of viscous and Coulomb friction of joint `joint` (from 0), rows x 2: those that change
+/// Returns the columns of viscous and Coulomb friction of joint `j` (from 0), rows x 2: those that change
 /// with its friction width and its spring.
-Eigen::MatrixX2d friction_columns(const UniformLog& log, const RowSetting& setting, int joint);
+Eigen::MatrixX2d friction_columns(const UniformLog& log, const RowSetting& setting, int j);
 
 /// Returns the greatest distance of a sample from the middle of a row to which it contributes, s.
 double reach_s(const RowSetting& setting);

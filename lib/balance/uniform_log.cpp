@@ -136,9 +136,9 @@ UniformLog uniform_log(LogSource& log, double period_s) {
   return on_grid(all, placed(all, log.identity().path, period_s));
 }
 
-MeasuredMotion reading_of(const UniformLog& log, int joint) {
-  MeasuredMotion out{log.q.col(joint), {}};
-  if (log.dq.rows() > 0) out.dq = log.dq.col(joint);
+MeasuredMotion reading_of(const UniformLog& log, int j) {
+  MeasuredMotion out{log.q.col(j), {}};
+  if (log.dq.rows() > 0) out.dq = log.dq.col(j);
   return out;
 }
 

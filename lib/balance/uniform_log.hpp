@@ -32,7 +32,7 @@ struct MeasuredMotion {
   Eigen::VectorXd q, dq;  ///< `dq` is empty without a velocity
 };
 
-MeasuredMotion reading_of(const UniformLog& log, int joint);
+MeasuredMotion reading_of(const UniformLog& log, int j);
 
 /// Reads the whole log onto a grid of about `period_s` that begins with its first row; each row goes to its
 /// most likely point (see sample_grid). Throws Error(input) when fewer than two rows have all values.

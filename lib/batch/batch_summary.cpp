@@ -69,7 +69,7 @@ Json kinds_json(const BatchSummary& summary) {
   Json json = Json::array();
   for (const auto& [kind, joints] : summary.kinds)
     for (const auto& [joint, count] : joints)
-      json.push_back({{"kind", kind}, {"joint", count_or_null(joint)}, {"count", count}});
+      json.push_back({{"kind", kind}, {"joint", count_or_null(joint.number())}, {"count", count}});
   return json;
 }
 
@@ -202,7 +202,8 @@ std::string to_text(const BatchSummary& summary) {
   text += all.failed > 0 ? fmt::format(", {} failed because of a defect of faultline\n", all.failed) : "\n";
   for (const auto& [kind, joints] : summary.kinds)
     for (const auto& [joint, count] : joints)
-      text += fmt::format("  {:>6}  {}{}\n", count, kind, joint > 0 ? fmt::format(", joint {}", joint) : "");
+      text += fmt::format("  {:>6}  {}{}\n", count, kind,
+                          joint.is_none() ? "" : fmt::format(", joint {}", joint));
   for (const ModelFacts& model : summary.facts.models)
     for (const std::string& doubt : model.grave_doubts)
       text += fmt::format("  no log can be called healthy by {}: {}\n", brief(model.name), brief(doubt));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/batch/batch_row.hpp"
+#include "lib/core/joint.hpp"
 #include "lib/diagnose/diagnosis.hpp"
 
 namespace faultline {
@@ -47,11 +48,11 @@ struct LogWithoutDiagnosis {
 struct BatchSummary {
   BatchFacts facts;
   BatchCounts all;
-  std::map<std::string, BatchCounts> models;        ///< by BatchRow::model_sha256
-  std::map<std::string, BatchCounts> folders;       ///< by folder_of()
-  std::map<std::string, std::map<int, int>> kinds;  ///< faults by kind and joint; joint 0 = of no joint
-  std::vector<LogWithoutDiagnosis> not_diagnosed;   ///< unusable or failed, in the order of the rows
-  int status = 0;                                   ///< exit status: the worst of all logs
+  std::map<std::string, BatchCounts> models;          ///< by BatchRow::model_sha256
+  std::map<std::string, BatchCounts> folders;         ///< by folder_of()
+  std::map<std::string, std::map<Joint, int>> kinds;  ///< faults by kind and joint
+  std::vector<LogWithoutDiagnosis> not_diagnosed;     ///< unusable or failed, in the order of the rows
+  int status = 0;                                     ///< exit status: the worst of all logs
 };
 BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& facts);
 

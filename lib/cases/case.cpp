@@ -66,7 +66,7 @@ class ContentHash {
   void add(double x) { add_bits(std::bit_cast<std::uint64_t>(std::isnan(x) ? std::nan("") : x + 0.0)); }
   void add(const FaultLabel& label) {
     add(std::string(to_string(label.kind)));
-    add_bits(static_cast<std::uint64_t>(label.joint));
+    add_bits(static_cast<std::uint64_t>(label.joint.number()));
   }
   void add(const Opinion& opinion) {
     add(opinion.label);

@@ -133,7 +133,7 @@ void CaseBase::check(const Case& c) const {
     refuse_base(which + ": \"" + c.log_name +
                 "\" is not the name of a log; give the name of the file, without folders");
   for (const FaultLabel& label : {c.decision, c.label, c.episode.mlp.label, c.episode.rbfn.label})
-    if (label.joint < 0 || label.joint > kMostJoints)
+    if (label.joint.number() < 0 || label.joint.number() > kMostJoints)
       refuse_base(which + ": joints count from 1, to " + std::to_string(kMostJoints) + " at most");
 }
 
@@ -184,7 +184,7 @@ void CaseBase::confirm(std::int64_t id, std::optional<FaultLabel> label, const s
 
 void CaseBase::reject(std::int64_t id, std::optional<FaultLabel> was, const std::string& what_was_done,
                       const Signature& signature) {
-  revise(find(id), CaseOutcome::rejected, was.value_or(FaultLabel{FaultKind::unknown, 0}), what_was_done,
+  revise(find(id), CaseOutcome::rejected, was.value_or(FaultLabel{FaultKind::unknown}), what_was_done,
          signature);
 }
 

@@ -72,15 +72,17 @@ std::vector<double> from_bytes(const std::string& bytes) {
   return values;
 }
 
-/// Returns the joint, or -1, which the base refuses, if it is out of range.
-int joint_from(std::int64_t joint) { return joint >= 0 && joint <= 1000 ? static_cast<int>(joint) : -1; }
+/// Returns the joint of a number, or one of number -1, which the base refuses, if it is out of range.
+Joint joint_from(std::int64_t number) {
+  return Joint::numbered(number >= 0 && number <= 1000 ? static_cast<int>(number) : -1);
+}
 
 FaultLabel label_at(const SqliteStatement& row, int column) {
   return {fault_kind_from(row.text(column)), joint_from(row.integer(column + 1))};
 }
 
 void bind_label(SqliteStatement& row, const FaultLabel& label) {
-  row.bind(std::string(to_string(label.kind))).bind(static_cast<std::int64_t>(label.joint));
+  row.bind(std::string(to_string(label.kind))).bind(static_cast<std::int64_t>(label.joint.number()));
 }
 
 Case case_at(const SqliteStatement& row) {

@@ -20,7 +20,7 @@ struct Moments {
   }
 };
 
-using LabelKey = std::pair<int, int>;
+using LabelKey = std::pair<int, Joint>;
 LabelKey key_of(const FaultLabel& label) { return {static_cast<int>(label.kind), label.joint}; }
 
 /// Sums of squares of one feature: within the faults, and about the mean of all cases.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/cases/possible_labels.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "lib/core/error.hpp"
@@ -32,9 +34,9 @@ bool is_compared(const CaseBase& base, const FaultLabel& label) {
 int joints_of(const CaseBase& base) { return static_cast<int>(base.robot().axes.size()); }
 
 void check_joint(int joints, const FaultLabel& label, const std::string& where) {
-  if (label.joint > joints)
-    refuse_label(where, "is a fault of joint " + std::to_string(label.joint) + ", but the robot has " +
-                            counted(joints, "joint"));
+  if (label.joint.index() >= joints)
+    refuse_label(where, fmt::format("is a fault of joint {}, but the robot has {}", label.joint,
+                                    counted(joints, "joint")));
 }
 
 void check_place(int joints, const FaultLabel& label, const std::string& where) {
@@ -42,9 +44,9 @@ void check_place(int joints, const FaultLabel& label, const std::string& where) 
   if (label.kind == FaultKind::unknown) return;  // at any joint, or without one
   const std::string kind = to_string(label.kind);
   const FaultPlace place = describe(label.kind).place;
-  if (place == FaultPlace::nowhere && label.joint != 0)
+  if (place == FaultPlace::nowhere && label.joint != Joint())
     refuse_label(where, "\"" + kind + "\" has no joint; leave the joint out");
-  if (place == FaultPlace::joint && label.joint == 0)
+  if (place == FaultPlace::joint && label.joint == Joint())
     refuse_label(where, "\"" + kind + "\" is a fault of a joint; give its number, counted from 1");
 }
 
@@ -60,7 +62,8 @@ void check_label(const CaseBase& base, const FaultLabel& label, const std::strin
 }
 
 FaultLabel with_tip(FaultLabel label, int joints) {
-  if (describe(label.kind).place == FaultPlace::link && label.joint == 0) label.joint = joints;
+  if (describe(label.kind).place == FaultPlace::link && label.joint == Joint())
+    label.joint = Joint::at(joints - 1);
   return label;
 }
 

@@ -75,7 +75,8 @@ Opinions classify_episode(const EpisodeClassifier& classifier, const std::vector
 
 void to_json(nlohmann::json& json, const EpisodeClassifier& classifier) {
   nlohmann::json labels = nlohmann::json::array();
-  for (const FaultLabel& label : classifier.labels) labels.push_back({to_string(label.kind), label.joint});
+  for (const FaultLabel& label : classifier.labels)
+    labels.push_back({to_string(label.kind), label.joint.number()});
   json = {
       {"labels", labels}, {"scaler", classifier.scaler}, {"mlp", classifier.mlp}, {"rbfn", classifier.rbfn}};
 }
@@ -84,7 +85,8 @@ EpisodeClassifier episode_classifier_from_json(const nlohmann::json& json, const
   EpisodeClassifier classifier;
   try {
     for (const auto& label : json.at("labels"))
-      classifier.labels.push_back({fault_kind_from(label.at(0).get<std::string>()), label.at(1).get<int>()});
+      classifier.labels.push_back(
+          {fault_kind_from(label.at(0).get<std::string>()), Joint::numbered(label.at(1).get<int>())});
     classifier.scaler = scaler_from_json(json.at("scaler"), where);
     classifier.mlp = mlp_from_json(json.at("mlp"), where);
     classifier.rbfn = rbfn_from_json(json.at("rbfn"), where);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/classify/episode_features.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -60,7 +62,7 @@ double unfaded_size(std::span<const EpisodeFeature> list, std::size_t which,
 DescribedFeature read_size(std::span<const EpisodeFeature> list, std::size_t which,
                            std::span<const double> features, const UsualMotion& usual, const Chain& chain) {
   const FaultLabel& label = list[which].label;
-  const int j = label.joint - 1, s = list[which].size;
+  const int j = label.joint.index(), s = list[which].size;
   DescribedFeature reading{"size of " + quoted(label), ""};
   if (j < 0 || j >= usual.joints() || s >= describe(label.kind).size_count) return reading;
   const FaultSize& size = describe(label.kind).size[s];
@@ -77,7 +79,7 @@ DescribedFeature read_size(std::span<const EpisodeFeature> list, std::size_t whi
 std::array<double, kMostSizes> sizes_of(const FaultClaim& claim, double end_s, int joints) {
   std::array<double, kMostSizes> out{};
   if (claim.kind == FaultKind::collision) {
-    out[0] = impulse_of(claim, claim.joint - 1, joints);
+    out[0] = impulse_of(claim, claim.joint.index(), joints);
     return out;
   }
   const double lasts_s = std::min(claim.end_s, end_s) - claim.onset_s;
@@ -86,11 +88,11 @@ std::array<double, kMostSizes> sizes_of(const FaultClaim& claim, double end_s, i
   return out;
 }
 
-double impulse_of(const FaultClaim& claim, int joint, int joints) {
+double impulse_of(const FaultClaim& claim, int j, int joints) {
   if (claim.size.size() < joints) return 0.0;
   const double lasts_s = claim.end_s - claim.onset_s;
-  const double swelling = claim.size.size() == 2 * joints ? claim.size[joints + joint] : 0.0;
-  return lasts_s * (claim.size[joint] + kMeanOfHalfSine * swelling);
+  const double swelling = claim.size.size() == 2 * joints ? claim.size[joints + j] : 0.0;
+  return lasts_s * (claim.size[j] + kMeanOfHalfSine * swelling);
 }
 
 std::vector<LabelEvidence> evidence_by_label(const ExplainedFault& fault, double end_s,
@@ -106,7 +108,7 @@ std::vector<LabelEvidence> evidence_by_label(const ExplainedFault& fault, double
     const std::array<double, kMostSizes> sizes = sizes_of(score->claim, end_s, usual.joints());
     const std::span<const FaultSize> described = describe(label.kind).sizes();
     for (std::size_t s = 0; s < described.size(); ++s)
-      entry.size[s] = sizes[s] / feature_scale(usual, described[s].feature, label.joint - 1);
+      entry.size[s] = sizes[s] / feature_scale(usual, described[s].feature, label.joint.index());
   }
   return out;
 }
@@ -152,7 +154,7 @@ std::vector<EpisodeFeature> episode_feature_list(std::span<const FaultLabel> lab
       list.push_back({FeatureRole::size, label, s});
   for (const FeatureRole role : {FeatureRole::strength, FeatureRole::duration})
     list.push_back({.role = role});
-  for (int j = 1; j <= joints; ++j) list.push_back({.role = FeatureRole::residual, .joint = j});
+  for (int j = 0; j < joints; ++j) list.push_back({.role = FeatureRole::residual, .joint = Joint::at(j)});
   return list;
 }
 
@@ -169,7 +171,7 @@ std::string name_of(const EpisodeFeature& feature) {
     case FeatureRole::duration:
       return "duration";
     case FeatureRole::residual:
-      return "mlp residual " + std::to_string(feature.joint);
+      return fmt::format("mlp residual {}", feature.joint);
   }
   return "";
 }
@@ -195,7 +197,7 @@ DescribedFeature describe_feature(std::span<const EpisodeFeature> list, std::siz
     case FeatureRole::duration:
       return {"time from onset to end", "s", elementary::exp(x)};
     case FeatureRole::residual:
-      return {"MLP residual of joint " + std::to_string(list[which].joint), "times healthy",
+      return {fmt::format("MLP residual of joint {}", list[which].joint), "times healthy",
               elementary::exp(x)};
   }
   return {};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/explain/decide_log.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/identify/usual_motion.hpp"
@@ -30,8 +31,8 @@ std::vector<LabelEvidence> evidence_by_label(const ExplainedFault& fault, double
 /// Returns the sizes of a fault in the units of the catalogue's features; of a growing fault, at `end_s`.
 std::array<double, kMostSizes> sizes_of(const FaultClaim& claim, double end_s, int joints);
 
-/// Momentum that a collision of the scored size transfers to joint `joint` (from 0), N m s or N s.
-double impulse_of(const FaultClaim& collision, int joint, int joints);
+/// Momentum that a collision of the scored size transfers to joint `j` (from 0), N m s or N s.
+double impulse_of(const FaultClaim& collision, int j, int joints);
 
 /// Returns the posterior probability of `label` among all labels, with equal priors.
 double posterior_of(const FaultLabel& label, const std::vector<LabelEvidence>& evidence);
@@ -52,8 +53,8 @@ enum class FeatureRole {
 struct EpisodeFeature {
   FeatureRole role = FeatureRole::strength;
   FaultLabel label{};
-  int size = 0;   ///< from 0
-  int joint = 0;  ///< from 1
+  int size = 0;  ///< from 0
+  Joint joint{};
 };
 
 /// Returns the meaning of each feature in the order of episode_features().

@@ -144,7 +144,8 @@ std::vector<FaultLabel> classes_from_json(const json& in, const std::string& whe
   for (const json& entry : in) {
     const std::string name = text_from_json(entry, "fault", where);
     try {
-      classes.push_back({fault_kind_from(name), static_cast<int>(number_from_json(entry, "joint", where))});
+      classes.push_back({fault_kind_from(name),
+                         Joint::numbered(static_cast<int>(number_from_json(entry, "joint", where)))});
     } catch (const Error& error) {
       throw Error(ErrorCode::input, where, error.message());
     }
@@ -200,7 +201,7 @@ SampleClassifier train_sample_classifier(std::span<const LabelledResiduals> runs
 void to_json(json& out, const SampleClassifier& classifier) {
   json classes = json::array();
   for (const FaultLabel& label : classifier.classes)
-    classes.push_back({{"fault", to_string(label.kind)}, {"joint", label.joint}});
+    classes.push_back({{"fault", to_string(label.kind)}, {"joint", label.joint.number()}});
   out = {{"features", to_string(classifier.features)},
          {"classes", std::move(classes)},
          {"prior", vector_to_json(classifier.prior)},

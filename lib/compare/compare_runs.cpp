@@ -124,14 +124,14 @@ std::vector<std::string> notes_of(const RunSignals& first, const RunSignals& sec
                                   const RunComparison& all) {
   std::vector<std::string> notes;
   for (const char* quantity : {"velocity", "torque", "residual"}) {
-    const bool one = first.find(quantity, 1), other = second.find(quantity, 1);
+    const bool one = first.find(quantity, 1_joint), other = second.find(quantity, 1_joint);
     if (one != other)
       notes.push_back(
           fmt::format("only {} has a {}; it is not compared", one ? first.name : second.name, quantity));
   }
   if (!all.alignment.same_motion)
     notes.push_back(
-        first.find("residual", 1)
+        first.find("residual", 1_joint)
             ? "signals of different motions must differ and are not judged; only the residuals are judged"
             : "signals of different motions must differ and are not judged; with --model the residuals of "
               "both are compared, which do not follow from the motion");

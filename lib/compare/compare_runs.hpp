@@ -7,13 +7,14 @@
 
 #include "lib/compare/alignment.hpp"
 #include "lib/compare/run_signals.hpp"
+#include "lib/core/joint.hpp"
 
 namespace faultline {
 
 /// Difference of one signal between two runs: second minus first, at the samples of the first.
 struct SignalDifference {
   std::string quantity;  ///< as in RunSignal
-  int joint = 1;
+  Joint joint = 1_joint;
   double rms = std::numeric_limits<double>::quiet_NaN();
   double largest = std::numeric_limits<double>::quiet_NaN();    ///< signed
   double largest_s = std::numeric_limits<double>::quiet_NaN();  ///< its time, s from the first run's start

@@ -37,7 +37,7 @@ std::string line_of(const SignalDifference& s, const std::vector<char>& turns) {
 
 Json signal_json(const SignalDifference& s, const std::vector<char>& turns) {
   return {{"quantity", s.quantity},
-          {"joint", s.joint},
+          {"joint", s.joint.number()},
           {"unit", unit_of(s, turns)},
           {"rms", number_or_null(s.rms)},
           {"first_rms", number_or_null(s.first_rms)},
@@ -59,8 +59,8 @@ Json run_json(const std::string& name, double length_s, double period_s) {
 
 const char* unit_of(const SignalDifference& signal, const std::vector<char>& joints_turn) {
   const std::string& quantity = signal.quantity;
-  const auto place = static_cast<std::size_t>(signal.joint - 1);
-  const bool turns = place >= joints_turn.size() || joints_turn[place];
+  const int j = signal.joint.index();
+  const bool turns = j >= std::ssize(joints_turn) || joints_turn[j];
   if (quantity == "position") return turns ? "rad" : "m";
   if (quantity == "velocity") return turns ? "rad/s" : "m/s";
   if (quantity == "torque") return turns ? "N m" : "N";
@@ -101,7 +101,7 @@ std::string to_text(const RunComparison& comparison, const std::vector<char>& tu
     if (signal.quantity == "residual")
       text += fmt::format(
           "{}  residual of joint {} alone, rms: {} in the first run, {} in the second (1 as in healthy logs)\n",
-          signal.joint == 1 ? "\n" : "", signal.joint, value_text(signal.first_rms),
+          signal.joint == 1_joint ? "\n" : "", signal.joint, value_text(signal.first_rms),
           value_text(signal.second_rms));
   const bool has_residuals =
       std::any_of(comparison.signals.begin(), comparison.signals.end(),

@@ -36,7 +36,7 @@ constexpr int kLeastRows = 8;
 void add(std::vector<RunSignal>& to, const char* quantity, const JointSignals& values,
          const std::vector<double>& time) {
   for (std::size_t j = 0; j < values.size(); ++j)
-    to.push_back({quantity, static_cast<int>(j) + 1, time, values[j]});
+    to.push_back({quantity, Joint::at(static_cast<int>(j)), time, values[j]});
 }
 
 void add_residuals(RunSignals& run, const Log& log, const ResidualGenerator& generator) {
@@ -44,7 +44,7 @@ void add_residuals(RunSignals& run, const Log& log, const ResidualGenerator& gen
   ResidualState state;
   const Residuals residuals = compute_residuals(generator, log, state);
   for (int j = 0; j < residuals.joints(); ++j) {
-    RunSignal signal{"residual", j + 1, {}, {}};
+    RunSignal signal{"residual", Joint::at(j), {}, {}};
     for (int i = 0; i < residuals.count(); ++i) {
       signal.time.push_back(residuals.time[i] - run.start_s);
       signal.values.push_back(residuals.velocity(j, i));
@@ -86,7 +86,7 @@ double noise_of(const std::vector<double>& values) {
   return std::isfinite(step) ? std::max(smooth, step / std::sqrt(12.0)) : smooth;
 }
 
-const RunSignal* RunSignals::find(const std::string& quantity, int joint) const {
+const RunSignal* RunSignals::find(const std::string& quantity, Joint joint) const {
   for (const RunSignal& signal : signals)
     if (signal.quantity == quantity && signal.joint == joint) return &signal;
   return nullptr;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/log/log.hpp"
 #include "lib/residual/residual_generator.hpp"
 
@@ -32,7 +33,7 @@ double noise_of(const std::vector<double>& values);
 /// One quantity of one joint over a whole run.
 struct RunSignal {
   std::string quantity;  ///< position, velocity, torque, residual
-  int joint = 1;
+  Joint joint = 1_joint;
   std::vector<double> time;  ///< s, from the first row of the run
   std::vector<double> values;
 };
@@ -46,7 +47,7 @@ struct RunSignals {
   bool by_reference = false;       ///< whether `motion` is the references
 
   /// Returns null if the run does not have the signal.
-  const RunSignal* find(const std::string& quantity, int joint) const;
+  const RunSignal* find(const std::string& quantity, Joint joint) const;
 };
 
 /// Returns the signals of a whole log; with a generator also its normalised velocity residuals (1 as in

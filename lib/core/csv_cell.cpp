@@ -47,6 +47,6 @@ std::string csv_cell(const std::string& text) {
 
 std::string csv_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
-std::string csv_joint(int joint) { return joint > 0 ? std::to_string(joint) : ""; }
+std::string csv_joint(Joint joint) { return joint.is_none() ? "" : fmt::format("{}", joint); }
 
 }  // namespace faultline

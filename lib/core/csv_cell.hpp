@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "lib/core/joint.hpp"
+
 /// Cells of the comma-separated tables that faultline writes (RFC 4180).
 namespace faultline {
 
@@ -17,7 +19,7 @@ std::string inert_text(const std::string& text);
 std::string csv_cell(const std::string& text);
 /// Returns the number with every bit; empty if not finite.
 std::string csv_cell(double value);
-/// Returns the number of a joint, from 1; empty for 0, which is no joint.
-std::string csv_joint(int joint);
+/// Returns the number of a joint; empty for none.
+std::string csv_joint(Joint joint);
 
 }  // namespace faultline

@@ -17,15 +17,15 @@ namespace {
 constexpr double kEnough = 0.75;  // share of the simulated faults of a kind: fewer found are reported
 
 std::string what_is_missing(const UnjudgedStretch& stretch) {
-  if (stretch.joint == 0) return "rows are missing";
+  if (stretch.joint.is_none()) return "rows are missing";
   if (!stretch.lacks_position) return "its torque is missing";
   return stretch.lacks_torque ? "its position and its torque are missing" : "its position is missing";
 }
 
 /// The words that a stretch begins with, up to "judged".
 std::string not_judged(const UnjudgedStretch& stretch) {
-  return stretch.joint == 0 ? "no joint could be judged"
-                            : fmt::format("joint {} could not be judged", stretch.joint);
+  return stretch.joint.is_none() ? "no joint could be judged"
+                                 : fmt::format("joint {} could not be judged", stretch.joint);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ std::string unjudged_words(const UnjudgedStretch& stretch, const LogFacts& log) 
     return fmt::format("{} in {:.0f} % of the time from {} to {}{}: {}, repeatedly", not_judged(stretch),
                        100.0 * stretch.share, time_text(stretch.start_s, period_s),
                        time_text(stretch.end_s, period_s), end,
-                       stretch.joint == 0 ? "rows are missing or empty" : what_is_missing(stretch));
+                       stretch.joint.is_none() ? "rows are missing or empty" : what_is_missing(stretch));
   return fmt::format("{} from {} to {}{}: {}", not_judged(stretch), time_text(stretch.start_s, period_s),
                      time_text(stretch.end_s, period_s), end, what_is_missing(stretch));
 }
@@ -73,7 +73,7 @@ std::vector<std::string> unjudged_spots(const LogFacts& log) {
 
 std::vector<std::string> resting_spots(const LogFacts& log) {
   std::vector<std::string> spots;
-  for (const int joint : log.resting)
+  for (const Joint joint : log.resting)
     spots.push_back(fmt::format(
         "Joint {} hardly moved: faults that show in its motion (a lock, friction, a stuck encoder) cannot be seen.",
         joint));
@@ -88,7 +88,7 @@ std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relat
     const bool drive = relations[i].kind == RelationKind::actuator;
     spots.push_back(fmt::format(
         "The healthy logs show how joint {}'s {}, but this log lacks the signals ({}): {} cannot be seen.",
-        relations[i].joint + 1,
+        relations[i].joint,
         drive ? "measured torque follows the commanded one" : "commanded torque follows reference and motion",
         drive ? "commanded and measured torque" : "references, motion and torque",
         drive ? "small faults of the drive" : "faults of the controller and of the source of commands"));
@@ -105,7 +105,8 @@ std::vector<std::string> drive_limit_spots(const std::vector<SignalRelation>& re
     spots.push_back(fmt::format(
         "For {1:.2g} s the command of joint {0}, or its rate of change, is outside the range of the healthy "
         "logs, in which the drive gave {2:.3g} to {3:.3g} {4}: whether the drive followed it is not judged.",
-        drive.joint + 1, beyond_s[i], drive.low, drive.high, torque_unit(chain.geometry[drive.joint].kind)));
+        drive.joint, beyond_s[i], drive.low, drive.high,
+        torque_unit(chain.geometry[drive.joint.index()].kind)));
   }
   return spots;
 }
@@ -132,7 +133,8 @@ std::vector<std::string> rough_spots(const std::vector<double>& roughness) {
   std::string joints;
   for (std::size_t j = 0; j < roughness.size(); ++j)
     if (roughness[j] > 1.0)
-      joints += fmt::format("{}joint {} {:.2g}", joints.empty() ? "" : ", ", j + 1, roughness[j]);
+      joints += fmt::format("{}joint {} {:.2g}", joints.empty() ? "" : ", ", Joint::at(static_cast<int>(j)),
+                            roughness[j]);
   if (joints.empty()) return {};
   return {
       fmt::format("The torque residual of this log exceeds that of the learned logs (by the factors: {}). "
@@ -145,7 +147,7 @@ std::string detectable_size_text(const Detectability& reach, const Chain& chain)
   const FaultDescription& fault = describe(reach.label.kind);
   if (fault.size_count == 0) return "";
   if (!std::isfinite(reach.size)) return "at any size";
-  const bool turns = chain.geometry[reach.label.joint - 1].kind == AxisKind::revolute;
+  const bool turns = chain.geometry[reach.label.joint.index()].kind == AxisKind::revolute;
   const SizeMeasure measure = fault.sizes().back().feature;
   if (measure == SizeMeasure::torque_share) return fmt::format("{:.0f} %", 100.0 * reach.size);
   return fmt::format("{:.2g} {}", reach.size, unit_of(measure, turns));

@@ -27,7 +27,7 @@ const char* words_of(DayEffectKind kind) {
 
 ConditionItem item_of(const DayEffect& effect, const Chain& chain) {
   const bool is_share = effect.kind == DayEffectKind::friction || effect.kind == DayEffectKind::torque_gain;
-  const bool turns = chain.geometry[effect.joint - 1].kind == AxisKind::revolute;
+  const bool turns = chain.geometry[effect.joint.index()].kind == AxisKind::revolute;
   ConditionItem item;
   item.joint = effect.joint;
   item.kind = effect.kind;

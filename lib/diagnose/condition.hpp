@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/explain/day_effects.hpp"
 #include "lib/robot/chain.hpp"
 
@@ -15,7 +16,7 @@ namespace faultline {
 struct ConditionItem {
   std::string name;  ///< stable identifier, such as "friction_1"
   std::string what;  ///< for a person, such as "friction of joint 1"
-  int joint = 0;     ///< from 1
+  Joint joint{};
   double value = std::numeric_limits<double>::quiet_NaN();
   std::array<double, 2> ci95 = {value, value};
   double normal_range = std::numeric_limits<double>::quiet_NaN();  ///< healthy days lie within +- this

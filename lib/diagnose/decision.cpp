@@ -55,7 +55,7 @@ Decision opinion_on(const Episode& episode, const Votes& votes) {
 Decision decide(const DecisionBasis& basis) {
   const Decision opinion = opinion_on(basis.episode, basis.votes);
   if (basis.likeliest.kind == FaultKind::unknown)
-    return {{FaultKind::unknown, 0},
+    return {{FaultKind::unknown},
             kSureOfUnknown,
             DecidedBy::evidence,
             DecisionReason::no_known_form,

@@ -155,7 +155,7 @@ void check_column_change(LogSource& judged, bool has_log_rows, const Model& mode
 
 /// Returns the diagnosis, in which a healthy verdict is inconclusive if `joints`, which could not be compared
 /// with a reference, are not empty.
-Diagnosis without_untracked(Diagnosis diagnosis, const std::vector<int>& joints) {
+Diagnosis without_untracked(Diagnosis diagnosis, const std::vector<Joint>& joints) {
   if (diagnosis.verdict != Verdict::healthy || joints.empty()) return diagnosis;
   diagnosis.verdict = Verdict::inconclusive;
   diagnosis.verdict_reason = fmt::format(

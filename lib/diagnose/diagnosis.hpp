@@ -9,6 +9,7 @@
 
 #include "lib/cases/case.hpp"
 #include "lib/core/issue.hpp"
+#include "lib/core/joint.hpp"
 #include "lib/diagnose/condition.hpp"
 #include "lib/explain/evidence_course.hpp"
 #include "lib/fault/fault_kind.hpp"
@@ -123,7 +124,7 @@ inline constexpr const char* kMisreadLog = "misread_log";
 /// A stretch of a log in which a joint could not be judged for longer than a moment (judged_moment_s()), at
 /// its end judged_moment_at_end_s(), or in which it was not judged in more than a quarter of ten moments.
 struct UnjudgedStretch {
-  int joint = 0;         ///< from 1; 0: all, rows are missing
+  Joint joint{};         ///< none: all, rows are missing
   double start_s = 0.0;  ///< last row before it that was judged, or the first row
   double end_s = 0.0;    ///< first row after it that was judged, or the last row
   bool lacks_position = false, lacks_torque = false;
@@ -145,9 +146,9 @@ struct LogFacts {
   bool is_tracked = false;                ///< without torque: compared with references only
   std::vector<LogRun> runs;               ///< of its clock; one if it never restarts, none without a file
   std::vector<UnjudgedStretch> unjudged;  ///< by start
-  std::vector<int> resting;        ///< joints, from 1, that hardly moved compared with the healthy logs
-  std::int64_t rows_unjudged = 0;  ///< of the joint log: without a position or torque, or left out
-  bool is_whole = true;            ///< every row is used and judged, and none is missing within the log
+  std::vector<Joint> resting;             ///< joints that hardly moved compared with the healthy logs
+  std::int64_t rows_unjudged = 0;         ///< of the joint log: without a position or torque, or left out
+  bool is_whole = true;  ///< every row is used and judged, and none is missing within the log
   Issues issues;
 };
 

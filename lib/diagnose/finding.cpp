@@ -58,8 +58,8 @@ void add_pushed_joints(Alternatives& alternatives, const MonitoredEpisode& obser
   const int joints = model.robot.joints();
   auto push = [&](int j) { return std::abs(impulse_of(claim, j, joints)) / model.motion.torque_scale[j]; };
   for (int j = 0; j < joints; ++j)
-    if (push(j) > kLeastPush * push(claim.joint - 1))
-      alternatives.add({FaultKind::collision, j + 1},
+    if (push(j) > kLeastPush * push(claim.joint.index()))
+      alternatives.add({FaultKind::collision, Joint::at(j)},
                        "the push also acted on this joint, as a push at the tip does");
 }
 
@@ -92,7 +92,7 @@ std::string size_words(const DecidedEpisode& decided, const Model& model) {
   const FaultLabel& label = decided.decision.label;
   for (const LabelScore& score : decided.observed.fault.scores) {
     if (score.label() != label || score.claim.size.size() == 0) continue;
-    const bool turns = model.robot.chain.geometry[label.joint - 1].kind == AxisKind::revolute;
+    const bool turns = model.robot.chain.geometry[label.joint.index()].kind == AxisKind::revolute;
     return size_text(label, sizes_of(score.claim, decided.observed.end_s, model.robot.joints()), turns);
   }
   return "";
@@ -113,7 +113,7 @@ std::vector<EvidenceItem> finding_evidence(const DecidedEpisode& decided, const 
   items.push_back({"log_likelihood_ratio", basis.episode.evidence, "nats",
                    fmt::format("log-likelihood ratio of the fault to a healthy robot (alarm from {:.0f} on)",
                                basis.limit)});
-  if (decision.label.joint > 0)
+  if (!decision.label.joint.is_none())
     if (std::string size = size_words(decided, model); !size.empty())
       items.push_back(remark("size", std::move(size)));
   const auto label = std::find_if(basis.evidence.begin(), basis.evidence.end(),

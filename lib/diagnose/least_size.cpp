@@ -16,11 +16,11 @@ bool is_small(const FaultFinding& fault) { return fault.extent.times_least < 1.0
 
 /// Least value of a size of the label's kind, SI units.
 double least_size_of(const FaultLabel& label, const FaultSize& size, const Model& model) {
-  return model.robot.least_sizes.of(label.kind) * usual_size(model.motion, size.feature, label.joint - 1);
+  return model.robot.least_sizes.of(label.kind) * usual_size(model.motion, size.feature, label.joint.index());
 }
 
 std::string unit_at(const FaultLabel& label, const FaultSize& size, const Model& model) {
-  return unit_of(size.feature, model.robot.chain.geometry[label.joint - 1].kind == AxisKind::revolute);
+  return unit_of(size.feature, model.robot.chain.geometry[label.joint.index()].kind == AxisKind::revolute);
 }
 
 std::string amount_text(double size, const std::string& unit) {
@@ -48,10 +48,11 @@ FaultExtent extent_of(const FaultLabel& label, const std::vector<LabelEvidence>&
   FaultExtent extent;
   const auto found = std::find_if(evidence.begin(), evidence.end(),
                                   [&](const LabelEvidence& e) { return e.label == label; });
-  if (label.joint < 1 || found == evidence.end() || !(describe(label.kind).least_size > 0.0)) return extent;
+  if (label.joint.is_none() || found == evidence.end() || !(describe(label.kind).least_size > 0.0))
+    return extent;
   const std::span<const FaultSize> sizes = describe(label.kind).sizes();
   for (std::size_t s = 0; s < sizes.size(); ++s) {
-    extent.size = found->size[s] * feature_scale(model.motion, sizes[s].feature, label.joint - 1);
+    extent.size = found->size[s] * feature_scale(model.motion, sizes[s].feature, label.joint.index());
     extent.least_size = least_size_of(label, sizes[s], model);
     extent.unit = unit_at(label, sizes[s], model);
     extent.times_least = std::fmax(extent.times_least, std::abs(extent.size) / extent.least_size);

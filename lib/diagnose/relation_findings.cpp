@@ -44,13 +44,13 @@ bool loses_torque(FaultKind kind) { return column_kind(kind) == FaultKind::torqu
 std::string target_name(const RelationEpisode& episode, const FaultClaim& claim, const std::string& size) {
   if (loses_torque(claim.kind))
     return fmt::format("the measured torque of joint {} is {:.0f} % below the commanded torque",
-                       episode.joint + 1, 100.0 * claim.size[0]);
+                       episode.joint, 100.0 * claim.size[0]);
   if (episode.kind == RelationKind::actuator)
     return fmt::format("the measured torque of joint {} differs from the commanded torque by {} on average",
-                       episode.joint + 1, size);
+                       episode.joint, size);
   return fmt::format(
       "the commanded torque of joint {} differs from the control law of the healthy logs by {} on average",
-      episode.joint + 1, size);
+      episode.joint, size);
 }
 
 std::string next_check_of(const RelationEpisode& episode) {
@@ -58,11 +58,11 @@ std::string next_check_of(const RelationEpisode& episode) {
     return fmt::format(
         "Look at the drive of joint {}: its current limit, its supply and its torque or current sensor; "
         "check also whether torque is added behind the controller.",
-        episode.joint + 1);
+        episode.joint);
   return fmt::format(
       "Look at the controller of joint {}: another mode, a changed gain or filter, a feed-forward, or a "
       "second program that writes the same command.",
-      episode.joint + 1);
+      episode.joint);
 }
 
 std::vector<EvidenceItem> evidence_of(const RelationEpisode& episode, const JudgedStretch& judged,
@@ -99,7 +99,7 @@ const char* target_name(const Tracked& tracked) {
 
 template <typename Tracked>
 const char* unit_of(const Tracked& tracked, const Chain& chain) {
-  const AxisKind axis = chain.geometry[tracked.joint].kind;
+  const AxisKind axis = chain.geometry[tracked.joint.index()].kind;
   return tracked.target == Quantity::q ? position_unit(axis) : velocity_unit(axis);
 }
 
@@ -134,7 +134,7 @@ EvidenceItem difference(const RelationEpisode& episode, const Chain& chain) {
           fmt::format("difference of the {} at its clearest moment", target_name(episode))};
 }
 
-std::string next_check_of(int joint) {
+std::string next_check_of(Joint joint) {
   return fmt::format(
       "Look at motor, brake, transmission and encoder of joint {}: it stalled, lost steps, was held or "
       "slipped. Home it before it moves again.",
@@ -144,7 +144,7 @@ std::string next_check_of(int joint) {
 FaultFinding tracking_finding(const RelationEpisode& episode, const Chain& chain) {
   const bool still = stands_still(episode);
   FaultFinding finding;
-  finding.label = {still ? FaultKind::locked : FaultKind::unknown, episode.joint + 1};
+  finding.label = {still ? FaultKind::locked : FaultKind::unknown, episode.joint};
   finding.onset_s = episode.onset_s;
   finding.alarm_s = episode.alarm_s;
   finding.end_s = episode.end_s;
@@ -152,7 +152,7 @@ FaultFinding tracking_finding(const RelationEpisode& episode, const Chain& chain
   finding.decided_by = DecidedBy::tracking;
   finding.evidence.push_back(
       {"decision", std::nan(""), "",
-       fmt::format("joint {} {}: the {} deviates by up to {} {}", episode.joint + 1,
+       fmt::format("joint {} {}: the {} deviates by up to {} {}", episode.joint,
                    still ? "stands still while its reference moves" : "does not follow its reference",
                    target_name(episode), value_text(std::abs(episode.strongest)), unit_of(episode, chain))});
   finding.evidence.push_back(difference(episode, chain));
@@ -162,7 +162,7 @@ FaultFinding tracking_finding(const RelationEpisode& episode, const Chain& chain
 }
 
 bool is_same(const FaultFinding& finding, const RelationEpisode& episode) {
-  return finding.label.joint == episode.joint + 1 && finding.onset_s <= episode.end_s + kFindingsSameTime_s &&
+  return finding.label.joint == episode.joint && finding.onset_s <= episode.end_s + kFindingsSameTime_s &&
          finding.end_s >= episode.onset_s - kFindingsSameTime_s;
 }
 
@@ -186,7 +186,7 @@ struct JointTracking {
   std::vector<const SignalRelation*> judged{};
 };
 
-JointTracking tracking_of(int joint, const Model& model, const std::vector<double>& judged_s) {
+JointTracking tracking_of(Joint joint, const Model& model, const std::vector<double>& judged_s) {
   JointTracking out;
   for (std::size_t i = 0; i < model.relations.size(); ++i) {
     const SignalRelation& relation = model.relations[i];
@@ -206,7 +206,7 @@ std::vector<SignalStretch> stretches_of(const std::vector<RelationEpisode>& epis
     if (answers(episode, episodes)) continue;
     const bool is_drive = episode.kind == RelationKind::actuator;
     out.push_back({.pair = is_drive ? SignalPair::drive : SignalPair::control_law,
-                   .joint = episode.joint + 1,
+                   .joint = episode.joint,
                    .id = k,
                    .onset_s = episode.onset_s,
                    .alarm_s = episode.alarm_s,
@@ -235,7 +235,7 @@ FaultFinding finding_of(const RelationEpisode& episode, const JudgedStretch& jud
   for (const FaultLabel& label : fault.could_also_be)
     finding.could_also_be.push_back({label, "explains the log almost as well"});
   finding.evidence =
-      evidence_of(episode, judged, torque_unit(model.robot.chain.geometry[episode.joint].kind));
+      evidence_of(episode, judged, torque_unit(model.robot.chain.geometry[episode.joint.index()].kind));
   finding.next_check =
       fault.claim.kind == FaultKind::unknown ? next_check_of(episode) : next_check_for(finding.label);
   return finding;
@@ -262,11 +262,11 @@ std::int64_t rows_tracked(const Model& model, const std::vector<double>& judged_
   return static_cast<std::int64_t>(longest_s / model.sample_period_s + 0.5);
 }
 
-std::vector<int> joints_not_tracked(const Model& model, const std::vector<double>& judged_s) {
-  std::vector<int> joints;
+std::vector<Joint> joints_not_tracked(const Model& model, const std::vector<double>& judged_s) {
+  std::vector<Joint> joints;
   for (int j = 0; j < model.robot.joints(); ++j) {
-    const JointTracking joint = tracking_of(j, model, judged_s);
-    if (joint.is_known && joint.judged.empty()) joints.push_back(j + 1);
+    const JointTracking joint = tracking_of(Joint::at(j), model, judged_s);
+    if (joint.is_known && joint.judged.empty()) joints.push_back(Joint::at(j));
   }
   return joints;
 }
@@ -277,22 +277,22 @@ std::vector<std::string> tracking_spots(const Model& model, const std::vector<do
       "logs. Lost torque, friction, loads, pushes and sensor faults that the controller compensates cannot "
       "be seen."};
   for (int j = 0; j < model.robot.joints(); ++j) {
-    const JointTracking joint = tracking_of(j, model, judged_s);
+    const JointTracking joint = tracking_of(Joint::at(j), model, judged_s);
     for (const SignalRelation* relation : joint.judged) {
       const WindowLimit& window = relation->windows[relation->windows.size() / 2];
       spots.push_back(fmt::format(
           "Joint {}: {} errors below {:.2g} {} over {:g} s cannot be distinguished from healthy motion.",
-          j + 1, target_name(*relation), window.limit, unit_of(*relation, model.robot.chain),
+          Joint::at(j), target_name(*relation), window.limit, unit_of(*relation, model.robot.chain),
           window.window_s));
     }
     if (!joint.is_known)
       spots.push_back(fmt::format(
-          "Joint {} is not judged: the healthy logs do not show it following a reference.", j + 1));
+          "Joint {} is not judged: the healthy logs do not show it following a reference.", Joint::at(j)));
     else if (joint.judged.empty())
       spots.push_back(fmt::format(
           "Joint {} is not judged: its reference is missing or never changes in this log, or never resembles "
           "those of the healthy logs, or too few complete rows follow each other.",
-          j + 1));
+          Joint::at(j)));
   }
   return spots;
 }

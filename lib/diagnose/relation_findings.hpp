@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/diagnose/diagnosis.hpp"
 #include "lib/explain/signal_stretch.hpp"
 #include "lib/model/model.hpp"
@@ -30,8 +31,8 @@ std::vector<FaultFinding> tracking_findings(const std::vector<RelationEpisode>& 
 /// `judged_s`: by relation, s.
 std::int64_t rows_tracked(const Model& model, const std::vector<double>& judged_s);
 
-/// Returns the joints (from 1) with tracking relations in the model, none of which was judged in the log.
-std::vector<int> joints_not_tracked(const Model& model, const std::vector<double>& judged_s);
+/// Returns the joints with tracking relations in the model, none of which was judged in the log.
+std::vector<Joint> joints_not_tracked(const Model& model, const std::vector<double>& judged_s);
 
 /// Lists what such a log cannot show, and the smallest tracking error that is detected, a sentence each.
 std::vector<std::string> tracking_spots(const Model& model, const std::vector<double>& judged_s);

@@ -43,7 +43,7 @@ std::string why_too_rough(const std::vector<double>& roughness) {
       "no fault was found, but the torque residual is {:.2g} times as large at joint {} as in the learned "
       "logs, so that a fault there may be missed; if the robot is meant to be so, learn a model with such "
       "logs",
-      *worst, worst - roughness.begin() + 1);
+      *worst, Joint::at(static_cast<int>(worst - roughness.begin())));
 }
 
 /// States when the motion was so far from a fault-free one that something happened, although no fault
@@ -203,7 +203,7 @@ bool begins(const FaultFinding& earlier, const FaultFinding& later) {
 }
 
 /// Whether the finding, or an alternative of an unknown one, is at that joint.
-bool may_be_at(const FaultFinding& finding, int joint) {
+bool may_be_at(const FaultFinding& finding, Joint joint) {
   if (!is_unknown(finding)) return finding.label.joint == joint;
   const auto& others = finding.could_also_be;
   return others.empty() || std::any_of(others.begin(), others.end(), [joint](const Alternative& other) {
@@ -220,7 +220,7 @@ bool is_shaken_by(const FaultFinding& earlier, const FaultFinding& later) {
          later.onset_s < earlier.end_s + kAfterShaking_s;
 }
 
-std::tuple<double, double, int> order_key(const FaultFinding& finding) {
+std::tuple<double, double, Joint> order_key(const FaultFinding& finding) {
   return {or_last(finding.onset_s), or_last(finding.alarm_s), finding.label.joint};
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lib/core/joint.hpp"
+
 namespace faultline {
 
 /// Effects by which the healthy days of a robot differ.
@@ -29,7 +31,7 @@ inline const char* to_string(DayEffectKind kind) {
 /// Estimate of an effect of the day of a log; 0 is the identified robot.
 struct DayEffect {
   DayEffectKind kind = DayEffectKind::friction;
-  int joint = 0;  ///< from 1
+  Joint joint{};
   double value = 0.0;
   double std = 0.0;      ///< of the estimate
   double day_std = 0.0;  ///< standard deviation between healthy days

@@ -38,11 +38,11 @@ struct RippledJoint {
   VectorXd counts;  ///< 1 or 0
 };
 
-RippledJoint rippled_joint(const LogFit& fit, const CalmRows& calm, int joint, double most) {
+RippledJoint rippled_joint(const LogFit& fit, const CalmRows& calm, int j, double most) {
   const Eigen::Index rows = fit.count(), calm_rows = calm.torque.rows();
-  const VectorXd std = fit.std().col(joint);
-  RippledJoint out{(torque_without_piece(fit) - fit.day_torque(calm.day)).segment(joint * rows, rows),
-                   calm.counts.col(joint).cast<double>()};
+  const VectorXd std = fit.std().col(j);
+  RippledJoint out{(torque_without_piece(fit) - fit.day_torque(calm.day)).segment(j * rows, rows),
+                   calm.counts.col(j).cast<double>()};
   out.counts.conservativeResize(rows);
   for (Eigen::Index k = calm_rows; k < rows; ++k)
     out.counts[k] = std::abs(out.torque[k]) < most && std[k] < kWithoutWeight * std.minCoeff() ? 1.0 : 0.0;
@@ -50,18 +50,18 @@ RippledJoint rippled_joint(const LogFit& fit, const CalmRows& calm, int joint, d
 }
 
 /// Returns the rate of the ripple that explains most of the residual of joint `joint`, if there is one.
-std::optional<double> ripple_of(const LogFit& fit, const CalmRows& calm, int joint) {
-  const Eigen::Index number = calm.counts.col(joint).count();
+std::optional<double> ripple_of(const LogFit& fit, const CalmRows& calm, int j) {
+  const Eigen::Index number = calm.counts.col(j).count();
   if (number < kFewestCalm) return std::nullopt;
   const BalanceModel& m = fit.model();
-  const double rms = std::sqrt(calm.torque.col(joint).squaredNorm() / static_cast<double>(number));
-  const RippledJoint of = rippled_joint(fit, calm, joint, kNoRipple * rms);
+  const double rms = std::sqrt(calm.torque.col(j).squaredNorm() / static_cast<double>(number));
+  const RippledJoint of = rippled_joint(fit, calm, j, kNoRipple * rms);
   RippleRows rows;
   for (int k = 0; k < fit.count(); ++k)
     if (of.counts[k] > 0.0)
-      rows.add(fit.rows().q(k, joint), fit.rows().dq(k, joint), fit.rows().torque(k, joint), of.torque[k]);
-  const bool slides = m.rigid.chain.geometry[joint].kind == AxisKind::prismatic;
-  return strongest_ripple(std::move(rows), m.setting.kernel_s, m.q_high[joint] - m.q_low[joint],
+      rows.add(fit.rows().q(k, j), fit.rows().dq(k, j), fit.rows().torque(k, j), of.torque[k]);
+  const bool slides = m.rigid.chain.geometry[j].kind == AxisKind::prismatic;
+  return strongest_ripple(std::move(rows), m.setting.kernel_s, m.q_high[j] - m.q_low[j],
                           {.form = RippleForm::constant,
                            .least_explained = kMostly,
                            .least_waves = slides ? kLeastWavesOfSlide : kLeastWaves,
@@ -75,17 +75,18 @@ double phase_step(const LogFit& fit, const CalmRows& calm, int r) {
   const BalanceModel& m = fit.model();
   const DayLayout day = day_layout(m);
   const RippleRate at = m.setting.ripples[index_of(m, r)];
-  const double range = m.q_high[at.joint] - m.q_low[at.joint], step = kPhaseStep / range;
+  const int j = at.joint.index();
+  const double range = m.q_high[j] - m.q_low[j], step = kPhaseStep / range;
   RowSetting setting = m.setting;
   setting.ripples = {at, {at.joint, at.rate - step}, {at.joint, at.rate + step}};
-  const MatrixXd column = balance_rows(fit.log(), setting, m.rigid, m.theta).column[at.joint];
+  const MatrixXd column = balance_rows(fit.log(), setting, m.rigid, m.theta).column[j];
   const ColumnLayout layout = layout_of(m.rigid, setting);
   const auto waves = [&](int k) { return column.middleCols<2>(layout.ripple_sine(k)); };
   MatrixXd x(fit.count(), 3);
   x << waves(0), (waves(2) - waves(1)) * calm.day.segment<2>(day.ripple(r)) / (2.0 * kPhaseStep);
-  const RippledJoint of = rippled_joint(fit, calm, at.joint, std::numeric_limits<double>::infinity());
-  const double noise = std::sqrt(autocovariance(fit.noise().joint[at.joint])[0]);
-  const VectorXd std = noise * fit.std().col(at.joint), left = of.torque.cwiseQuotient(std);
+  const RippledJoint of = rippled_joint(fit, calm, j, std::numeric_limits<double>::infinity());
+  const double noise = std::sqrt(autocovariance(fit.noise().joint[j])[0]);
+  const VectorXd std = noise * fit.std().col(j), left = of.torque.cwiseQuotient(std);
   VectorXd weight = of.counts;
   for (Eigen::Index k = calm.torque.rows(); k < weight.size(); ++k)
     weight[k] /= 1.0 + Eigen::numext::abs2(left[k] / kFarResidual);
@@ -100,7 +101,7 @@ BalanceModel with_ripple(BalanceModel m, const RippleRate& ripple) {
   m.setting.ripples.push_back(ripple);
   ++m.ripples_of_day;
   const VectorXd learned = m.theta, usual = m.day_variance;
-  const double std = kRippleStd * m.torque_rms[ripple.joint];
+  const double std = kRippleStd * m.torque_rms[ripple.joint.index()];
   m.theta = VectorXd::Zero(m.layout().count());
   m.theta.head(learned.size()) = learned;
   m.day_variance = VectorXd::Constant(day_layout(m).count(), std * std);
@@ -118,13 +119,13 @@ std::optional<BalanceModel> improved(const LogFit& fit) {
   for (int r = 0; r < fit.model().ripples_of_day; ++r) {
     const double step = phase_step(fit, calm, r);
     RippleRate& ripple = out.setting.ripples[index_of(fit.model(), r)];
-    ripple.rate += step / (out.q_high[ripple.joint] - out.q_low[ripple.joint]);
+    ripple.rate += step / (out.q_high[ripple.joint.index()] - out.q_low[ripple.joint.index()]);
     changes = changes || std::abs(step) > kSamePhase;
   }
   for (int j = 0; j < fit.joints(); ++j) {
     if (level[j] < kLoud) continue;
     if (const std::optional<double> rate = ripple_of(fit, calm, j)) {
-      out = with_ripple(std::move(out), {j, *rate});
+      out = with_ripple(std::move(out), {Joint::at(j), *rate});
       changes = true;
     }
   }
@@ -141,19 +142,20 @@ std::vector<double> noise_levels(const LogFit& fit) {
   return out;
 }
 
-std::optional<DayEffect> ripple_of_day(const LogFit& fit, int joint) {
+std::optional<DayEffect> ripple_of_day(const LogFit& fit, int j) {
   const BalanceModel& m = fit.model();
   const DayLayout at = day_layout(m);
   double square = 0.0, variance = 0.0;
   for (int r = 0; r < at.ripples; ++r) {
-    if (m.setting.ripples[index_of(m, r)].joint != joint) continue;
+    if (m.setting.ripples[index_of(m, r)].joint != Joint::at(j)) continue;
     const auto sine_and_cosine = [&](const VectorXd& of) { return of.segment<2>(at.ripple(r)); };
     const double amplitude = sine_and_cosine(fit.healthy().day).squaredNorm();
     square += amplitude;
     variance += amplitude * sine_and_cosine(fit.healthy().day_std).cwiseAbs2().maxCoeff();
   }
   if (square == 0.0) return std::nullopt;
-  return DayEffect{DayEffectKind::torque_ripple, joint + 1, std::sqrt(square), std::sqrt(variance / square)};
+  return DayEffect{DayEffectKind::torque_ripple, Joint::at(j), std::sqrt(square),
+                   std::sqrt(variance / square)};
 }
 
 std::optional<BalanceModel> with_ripples_of_day(const UniformLog& log, const BalanceModel& model,

@@ -20,8 +20,8 @@ inline constexpr double kLoud = 1.5;  ///< times the noise of the healthy logs: 
 std::optional<BalanceModel> with_ripples_of_day(const UniformLog& log, const BalanceModel& model,
                                                 const std::vector<FaultClaim>& known = {});
 
-/// Returns the amplitude of the ripples of the day of joint `joint` (from 0) as an effect for reports; none
+/// Returns the amplitude of the ripples of the day of joint `j` (from 0) as an effect for reports; none
 /// if it has none.
-std::optional<DayEffect> ripple_of_day(const LogFit& fit, int joint);
+std::optional<DayEffect> ripple_of_day(const LogFit& fit, int j);
 
 }  // namespace faultline

@@ -16,10 +16,10 @@ EffectColumns::EffectColumns(const std::vector<MatrixXd>& columns)
   }
 }
 
-MatrixXd EffectColumns::all(int joint) const {
+MatrixXd EffectColumns::all(int j) const {
   MatrixXd out = MatrixXd::Zero(rows(), effects_);
-  for (std::size_t i = 0; i < reach_[joint].size(); ++i)
-    out.col(reach_[joint][i]) = column_[joint].col(static_cast<Index>(i));
+  for (std::size_t i = 0; i < reach_[j].size(); ++i)
+    out.col(reach_[j][i]) = column_[j].col(static_cast<Index>(i));
   return out;
 }
 

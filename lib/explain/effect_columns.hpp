@@ -21,11 +21,11 @@ class EffectColumns {
   Eigen::Index effects() const { return effects_; }
   int joints() const { return static_cast<int>(column_.size()); }
   /// Returns the indices of the effects that reach the rows of a joint (from 0), ascending.
-  const std::vector<int>& reach(int joint) const { return reach_[joint]; }
+  const std::vector<int>& reach(int j) const { return reach_[j]; }
   /// Returns their columns, rows x reach.
-  const Eigen::MatrixXd& column(int joint) const { return column_[joint]; }
+  const Eigen::MatrixXd& column(int j) const { return column_[j]; }
   /// Returns all columns of a joint, rows x effects.
-  Eigen::MatrixXd all(int joint) const;
+  Eigen::MatrixXd all(int j) const;
 
   /// Appends effects with these stacked columns.
   void append(const StackedColumns& columns);

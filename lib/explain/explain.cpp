@@ -33,7 +33,7 @@ constexpr std::size_t kBeside = 5;       // best hypotheses beside which the noi
 constexpr int kRoundsOfNoise = 3;        // of the noise beside the best explanation
 
 /// Returns the `most` best candidates of a kind and joint, best first.
-std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, int joint,
+std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, Joint joint,
                           std::size_t most = std::numeric_limits<std::size_t>::max()) {
   std::vector<Candidate> out;
   for (const Candidate& c : all)
@@ -82,7 +82,7 @@ void judge_linear_kinds(const std::vector<Candidate>& all, const std::vector<dou
   for (const LinearFault& fault : fit.linear()) {
     const std::vector<Candidate> own = of(all, fault.kind, fault.joint);
     std::set<double> onsets = onsets_of(own, common, kOnsets);
-    if (fault.joint == fit.joints()) onsets.insert(changes.begin(), changes.end());
+    if (fault.joint == fit.last_joint()) onsets.insert(changes.begin(), changes.end());
     for (const double t : onsets)
       bench.go({.kind = fault.kind, .joint = fault.joint, .onset_s = t, .grows = fault.columns.grow});
     if (fault.columns.grow) continue;
@@ -95,9 +95,10 @@ void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change,
   const LogFit& fit = bench.fit;
   const std::vector<double> common = onsets_to_try(all, change, fit.model().setting.row_s());
   judge_linear_kinds(all, common, bench);
-  const std::vector<Candidate> blows = of(all, FaultKind::collision, fit.joints(), 4);
-  for (const double t : onsets_of(blows, common, 5)) bench.go({FaultKind::collision, fit.joints(), t});
-  for (int joint = 1; joint <= fit.joints(); ++joint) {
+  const std::vector<Candidate> blows = of(all, FaultKind::collision, fit.last_joint(), 4);
+  for (const double t : onsets_of(blows, common, 5)) bench.go({FaultKind::collision, fit.last_joint(), t});
+  for (int j = 0; j < fit.joints(); ++j) {
+    const Joint joint = Joint::at(j);
     const std::vector<Candidate> drifts = of(all, FaultKind::sensor_drift, joint, 3);
     for (const Candidate& c : drifts) bench.go(c);
     // Sticking friction gives the likelihood many maxima over the size: it starts from that of the search.

@@ -23,9 +23,9 @@ FaultTimes times_of(const UniformLog& log, double onset_s, double end_s) {
 }
 
 /// Returns the jump of a joint's position next to a time, as an initial size; 0 if there is none.
-double jump_near(const LogFit& fit, int joint, double time_s) {
+double jump_near(const LogFit& fit, Joint joint, double time_s) {
   double size = 0.0, nearest = 4.0 * fit.log().period_s;
-  for (const SensorJump& jump : sensor_jumps(fit, joint - 1))
+  for (const SensorJump& jump : sensor_jumps(fit, joint.index()))
     if (std::abs(jump.onset_s - time_s) < nearest)
       nearest = std::abs(jump.onset_s - time_s), size = jump.size;
   return size;
@@ -36,9 +36,10 @@ LogExplanation judged_at(const LogFit& fit, const FaultTimes& at) {
   JudgedHypotheses bench{fit};
   for (const LinearFault& fault : fit.linear())
     bench.go({fault.kind, fault.joint, at.onset_s, at.end_s, {}, fault.columns.grow});
-  bench.go({FaultKind::collision, fit.joints(), at.onset_s,
+  bench.go({FaultKind::collision, fit.last_joint(), at.onset_s,
             at.end_s - at.onset_s < kLongestBlow_s ? at.end_s : kNeverEnds});
-  for (int joint = 1; joint <= fit.joints(); ++joint) {
+  for (int j = 0; j < fit.joints(); ++j) {
+    const Joint joint = Joint::at(j);
     bench.go({FaultKind::locked, joint, at.onset_s, at.end_s});
     bench.go({FaultKind::stuck_encoder, joint, at.sample_s, at.end_s});
     bench.go({FaultKind::sensor_drift, joint, at.onset_s, at.end_s});

@@ -45,9 +45,9 @@ struct NextFault {
 std::vector<DayEffect> effects_of(const LogFit& fit) {
   const DayLayout at = day_layout(fit.model());
   std::vector<DayEffect> out;
-  const auto add = [&](DayEffectKind kind, int joint, int index, double sign) {
+  const auto add = [&](DayEffectKind kind, int j, int index, double sign) {
     if (fit.model().day_variance[index] > kNoEffect)
-      out.push_back({kind, joint + 1, sign * fit.healthy().day[index], fit.healthy().day_std[index],
+      out.push_back({kind, Joint::at(j), sign * fit.healthy().day[index], fit.healthy().day_std[index],
                      std::sqrt(fit.model().day_variance[index])});
   };
   for (int j = 0; j < fit.joints(); ++j) add(DayEffectKind::friction, j, at.friction(j), 1.0);

@@ -25,7 +25,7 @@ struct PositionErrorSize {
 };
 
 PositionErrorSize position_error_size(const LogFit& fit, const FaultClaim& claim) {
-  const bool slide = fit.model().rigid.chain.geometry[claim.joint - 1].kind == AxisKind::prismatic;
+  const bool slide = fit.model().rigid.chain.geometry[claim.joint.index()].kind == AxisKind::prismatic;
   if (claim.kind == FaultKind::sensor_bias)
     return slide ? PositionErrorSize{0.02, 2e-4} : PositionErrorSize{0.1, 1e-3};
   return slide ? PositionErrorSize{0.03, 4e-4} : PositionErrorSize{0.1, 2e-3};
@@ -76,7 +76,7 @@ FaultHypothesis judge_position_error(const LogFit& fit, FaultClaim claim, double
 }  // namespace
 
 FaultHypothesis judge_false_position(const LogFit& fit, FaultClaim claim, double rival) {
-  const bool is_one = fit.log().dq.rows() == 0 || !fit.model().setting.measures_velocity(claim.joint - 1);
+  const bool is_one = fit.log().dq.rows() == 0 || !fit.model().setting.measures_velocity(claim.joint.index());
   FaultHypothesis best = judge_position_error(fit, claim, rival);
   if (claim.velocity_is_true || is_one) return best;
   claim.velocity_is_true = true;

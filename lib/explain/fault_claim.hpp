@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <limits>
 
+#include "lib/core/joint.hpp"
 #include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
@@ -21,7 +22,7 @@ struct FaultSpan {
 /// A claim on a log: a fault of a kind at a joint, with onset, end and size.
 struct FaultClaim {
   FaultKind kind = FaultKind::none;
-  int joint = 0;  ///< from 1
+  Joint joint{};
   double onset_s = 0.0;
   double end_s = kNeverEnds;
   /// Share of the torque lost; viscous and Coulomb friction added; kg at the end of the link; force on each

@@ -43,7 +43,7 @@ double carried_mass(const BalanceRows& rows, const BalanceModel& model, const Ma
 LinearFault torque_loss(const BalanceRows& rows, const BalanceModel& m, int j) {
   LinearFault out{
       FaultKind::torque_loss,
-      j + 1,
+      Joint::at(j),
       {StackedColumns::Zero(rows.rows() * rows.joints(), 1), VectorXd::Constant(1, kLossVariance)},
       {}};
   const ColumnLayout at = m.layout();
@@ -64,7 +64,7 @@ LinearFault friction_increase(const BalanceRows& rows, const BalanceModel& m, in
   const ColumnLayout layout = m.layout();
   const double fv = m.theta[layout.viscous(j)], fc = m.theta[layout.coulomb(j)];
   LinearFault out{FaultKind::friction_increase,
-                  j + 1,
+                  Joint::at(j),
                   {StackedColumns::Zero(rows.rows() * rows.joints(), 2), VectorXd(2), creeps},
                   {}};
   out.columns.column.col(0).segment(j * rows.rows(), rows.rows()) = rows.column[j].col(layout.viscous(j));
@@ -82,7 +82,7 @@ LinearFault friction_increase(const BalanceRows& rows, const BalanceModel& m, in
 /// Returns the offset of a torque sensor, by which the drive gives another torque than the logged one.
 LinearFault torque_offset(const BalanceRows& rows, const BalanceModel& m, int j) {
   LinearFault out{FaultKind::torque_sensor_error,
-                  j + 1,
+                  Joint::at(j),
                   {StackedColumns::Zero(rows.rows() * rows.joints(), 1),
                    VectorXd::Constant(1, kOffsetVariance * m.torque_rms[j] * m.torque_rms[j])},
                   {}};
@@ -91,15 +91,15 @@ LinearFault torque_offset(const BalanceRows& rows, const BalanceModel& m, int j)
   return out;
 }
 
-LinearFault payload_change(const BalanceRows& rows, const BalanceModel& m, int link) {
-  const MatrixXd unit = payload_torque(rows, m.payload, link);
-  const double mass = carried_mass(rows, m, unit, link);
+LinearFault payload_change(const BalanceRows& rows, const BalanceModel& m, Joint link) {
+  const MatrixXd unit = payload_torque(rows, m.payload, link.index());
+  const double mass = carried_mass(rows, m, unit, link.index());
   LinearFault out{FaultKind::payload_change,
-                  link + 1,
+                  link,
                   {Eigen::Map<const VectorXd>(unit.data(), unit.size()),
                    VectorXd::Constant(1, kPayloadVariance * mass * mass)},
                   {}};
-  if (m.piece_kg > 0.0 && link + 1 == rows.joints())
+  if (m.piece_kg > 0.0 && link == Joint::at(rows.joints() - 1))
     for (const double share : {.25, .6, 1.}) out.starts.push_back(VectorXd::Constant(1, share * mass));
   return out;
 }
@@ -113,7 +113,7 @@ std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceMod
   for (int j = 0; j < n; ++j) out.push_back(torque_offset(rows, m, j));
   for (const bool creeps : {false, true})
     for (int j = 0; j < n; ++j) out.push_back(friction_increase(rows, m, j, creeps));
-  for (const int link : payload_links(m.rigid.chain)) out.push_back(payload_change(rows, m, link));
+  for (const Joint link : payload_links(m.rigid.chain)) out.push_back(payload_change(rows, m, link));
   return out;
 }
 
@@ -163,7 +163,7 @@ StackedMask silent_rows(const BalanceRows& rows, const BalanceModel& m, const Fa
                                  std::min(velocity_reach_s(m.setting, kShowsInVelocity), kLongestReach_s)
                            : kReach * m.setting.kernel_s;
   const auto is_revolute = [&](int i) { return m.rigid.chain.geometry[i].kind == AxisKind::revolute; };
-  const int j = claim.joint - 1;
+  const int j = claim.joint.index();
   StackedMask out(static_cast<std::size_t>(rows.rows() * rows.joints()), false);
   for (int i = 0; i < rows.joints(); ++i) {
     const bool coupled = claim.kind == FaultKind::stuck_encoder && is_revolute(j) && is_revolute(i);
@@ -192,7 +192,7 @@ MeasuredMotion with_repaired_velocity(MeasuredMotion reading, const UniformLog& 
 }  // namespace
 
 MeasuredMotion without_position_error(const UniformLog& log, const FaultClaim& claim) {
-  MeasuredMotion out = reading_of(log, claim.joint - 1);
+  MeasuredMotion out = reading_of(log, claim.joint.index());
   const bool shows_in_velocity = out.dq.size() > 0 && !claim.velocity_is_true;
   const double size = claim.size[0];
   for (int k = 0; k < log.rows(); ++k) {
@@ -231,8 +231,8 @@ UniformLog without_position_errors(UniformLog log, const std::vector<FaultClaim>
   for (const FaultClaim& claim : known) {
     if (!falsifies_position(claim.kind)) continue;
     const MeasuredMotion mended = without_position_error(log, claim);
-    log.q.col(claim.joint - 1) = mended.q;
-    if (mended.dq.size() > 0) log.dq.col(claim.joint - 1) = mended.dq;
+    log.q.col(claim.joint.index()) = mended.q;
+    if (mended.dq.size() > 0) log.dq.col(claim.joint.index()) = mended.dq;
   }
   return log;
 }

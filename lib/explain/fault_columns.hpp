@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/balance/balance_model.hpp"
+#include "lib/core/joint.hpp"
 #include "lib/explain/fault_claim.hpp"
 
 namespace faultline {
@@ -28,7 +29,7 @@ struct FaultColumns {
 /// Columns of a linear fault that lasts from the first row to the last.
 struct LinearFault {
   FaultKind kind = FaultKind::none;
-  int joint = 0;  ///< from 1
+  Joint joint{};
   FaultColumns columns;
   std::vector<Eigen::VectorXd> starts;  ///< sizes from which the path of a work piece is searched
 };

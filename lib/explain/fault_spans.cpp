@@ -128,9 +128,9 @@ Spans settled_spans(const LogFit& fit, const FaultClaim& claim, const LinearFaul
 
 /// Returns when a joint (from 0) that is locked from `from_s` on moves again, with its spring or without,
 /// since the lock may be on either side of it.
-std::optional<double> moves_from(const LogFit& fit, int joint, double from_s) {
-  const auto [place, tolerance] = standstill(fit, joint);
-  const VectorXd q = fit.rows().q.col(joint);
+std::optional<double> moves_from(const LogFit& fit, int j, double from_s) {
+  const auto [place, tolerance] = standstill(fit, j);
+  const VectorXd q = fit.rows().q.col(j);
   const int first = fit.first_row(from_s);
   const int rest_rows = std::min(kRestRows, fit.count() - first);
   if (rest_rows < kMovesRows) return std::nullopt;
@@ -148,8 +148,8 @@ std::optional<double> moves_from(const LogFit& fit, int joint, double from_s) {
 }
 
 /// Returns when an encoder that is stuck from `from_s` on gives another code; `from_s` if it is not stuck.
-std::optional<double> reads_again_from(const LogFit& fit, int joint, double from_s) {
-  for (const FaultSpan& run : repeated_codes(fit, joint))
+std::optional<double> reads_again_from(const LogFit& fit, int j, double from_s) {
+  for (const FaultSpan& run : repeated_codes(fit, j))
     if (run.onset_s <= from_s && run.end_s > from_s)
       return run.end_s < kNeverEnds ? std::optional(run.end_s) : std::nullopt;
   return from_s;
@@ -181,10 +181,10 @@ WithAndWithout with_and_without(const LogFit& fit, const KnownFault& fault, doub
 std::optional<double> end_of(const LogFit& fit, const KnownFault& fault) {
   const FaultClaim& claim = fault.claim;
   const double from_s = std::max(fit.log().time_s(0), claim.onset_s + reach_s(fit.model().setting));
-  if (claim.kind == FaultKind::locked) return moves_from(fit, claim.joint - 1, from_s);
-  if (claim.kind == FaultKind::stuck_encoder) return reads_again_from(fit, claim.joint - 1, from_s);
+  if (claim.kind == FaultKind::locked) return moves_from(fit, claim.joint.index(), from_s);
+  if (claim.kind == FaultKind::stuck_encoder) return reads_again_from(fit, claim.joint.index(), from_s);
   if (falsifies_position(claim.kind))
-    if (const std::optional<double> back = taken_back_s(sensor_jumps(fit, claim.joint - 1), claim))
+    if (const std::optional<double> back = taken_back_s(sensor_jumps(fit, claim.joint.index()), claim))
       return back;
   return absent_from_s(fit, with_and_without(fit, fault, from_s + kSurelyLasts_s), from_s);
 }

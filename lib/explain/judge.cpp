@@ -67,7 +67,7 @@ struct Repeats {
 
 Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
   const UniformLog& log = fit.log();
-  const int j = claim.joint - 1;
+  const int j = claim.joint.index();
   const int first = log.first_row(claim.onset_s), end = log.first_row(claim.end_s);
   const int within = first + 3, before = std::max(1, first - kSamplesBefore);
   const auto share = [&](int from, int to) {
@@ -81,7 +81,7 @@ Repeats repeats_in(const LogFit& fit, const FaultClaim& claim) {
 /// stuck encoder would repeat its velocity, too, or let it fade in a filter.
 bool velocity_shows_rest(const LogFit& fit, const FaultClaim& claim) {
   const UniformLog& log = fit.log();
-  const int j = claim.joint - 1;
+  const int j = claim.joint.index();
   if (log.dq.rows() == 0 || !fit.model().setting.measures_velocity(j)) return false;
   const double still = kStillVelocity * fit.model().dq_noise[j];
   int samples = 0, same = 0;
@@ -143,7 +143,7 @@ FaultColumns jolt_columns(const LogFit& fit, const FaultClaim& claim) {
       [&](double t) { return elementary::exp(-0.5 * Eigen::numext::abs2((t - claim.onset_s) / kernel_s)); });
   int column = 0;
   for (int i = 0; i < n; ++i) {
-    if (i == claim.joint - 1) continue;
+    if (i == claim.joint.index()) continue;
     out.column.col(column).segment(i * rows, rows) = jolt;
     out.variance[column++] = Eigen::numext::abs2(kJolt * fit.model().torque_rms[i]);
   }
@@ -154,7 +154,7 @@ FaultColumns jolt_columns(const LogFit& fit, const FaultClaim& claim) {
 /// shows that the joint stands still or that its encoder is stuck.
 std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim& claim) {
   const BalanceModel& m = fit.model();
-  const int j = claim.joint - 1;
+  const int j = claim.joint.index();
   const StackedMask dropped = silent_rows(fit.rows(), m, claim);
   const auto lost = static_cast<double>(std::count(dropped.begin(), dropped.end(), true));
   const auto [samples, same, same_before] = repeats_in(fit, claim);
@@ -183,12 +183,12 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
 double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
   const VectorXd& size = e.size;
   const FaultKind kind = claim.kind;
-  const int j = claim.joint - 1;
+  const int j = claim.joint.index();
   if (kind == FaultKind::torque_loss)
     return kNoSuchSize * std::max(0.0, -size[0]) + kBeyondLoss * std::max(0.0, size[0] - kMostLoss);
   if (kind == FaultKind::torque_sensor_error) return 0.0;
   if (kind == FaultKind::payload_change)
-    return size[0] < 0.0 && fit.has_piece() && claim.joint == fit.joints() ? kNoSuchSize : 0.0;
+    return size[0] < 0.0 && fit.has_piece() && claim.joint == fit.last_joint() ? kNoSuchSize : 0.0;
   const ColumnLayout layout = fit.model().layout();
   const VectorXd& theta = fit.model().theta;
   const auto seconds = [&](double time_s) { return claim.grows ? time_s - claim.onset_s : 1.0; };
@@ -219,8 +219,8 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
 }
 
 /// Returns the columns of a force on one joint (from 0) among those of a force on all joints.
-FaultColumns of_one_joint(const FaultColumns& force, int joint) {
-  const std::vector<int> at = {joint, static_cast<int>(force.sizes()) / 2 + joint};
+FaultColumns of_one_joint(const FaultColumns& force, int j) {
+  const std::vector<int> at = {j, static_cast<int>(force.sizes()) / 2 + j};
   return {StackedColumns(force.column(Eigen::all, at)), force.variance(at)};
 }
 
@@ -235,14 +235,14 @@ FaultHypothesis judge_force(const LogFit& fit, FaultClaim claim) {
   };
   Explanation all = explained_by(columns);
   const int n = fit.joints();
-  int joint = 0;
-  (all.size.head(n) + all.size.tail(n)).cwiseAbs2().cwiseQuotient(columns.variance.head(n)).maxCoeff(&joint);
-  claim.joint = joint + 1;
-  Explanation one = explained_by(of_one_joint(columns, joint));
+  int j = 0;
+  (all.size.head(n) + all.size.tail(n)).cwiseAbs2().cwiseQuotient(columns.variance.head(n)).maxCoeff(&j);
+  claim.joint = Joint::at(j);
+  Explanation one = explained_by(of_one_joint(columns, j));
   if (one.log_likelihood <= all.log_likelihood) return hypothesis(fit, claim, std::move(all), 0.0);
   const Eigen::Vector2d size = one.size;
   one.size = VectorXd::Zero(2 * n);
-  one.size(std::vector<int>{joint, n + joint}) = size;
+  one.size(std::vector<int>{j, n + j}) = size;
   return hypothesis(fit, claim, std::move(one), 0.0);
 }
 
@@ -263,7 +263,7 @@ double price_of_shrinking(const LogFit& fit, const FaultClaim& claim, const Expl
   if (column_kind(claim.kind) != FaultKind::torque_loss) return 0.0;
   const BalanceModel& m = fit.model();
   const DayLayout day = day_layout(m);
-  const int j = claim.joint - 1, base = day.base;
+  const int j = claim.joint.index(), base = day.base;
   const VectorXd theta = m.theta.head(base), changed = theta.cwiseProduct(e.day.head(base));
   double square = 0.0, product = 0.0, rows = 0.0;
   for (int k = 0; k < fit.count(); ++k) {
@@ -281,7 +281,7 @@ double price_of_shrinking(const LogFit& fit, const FaultClaim& claim, const Expl
 
 FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim) {
   claim.kind = FaultKind::unknown;
-  const int j = claim.joint - 1;
+  const int j = claim.joint.index();
   const VectorXd torque = fit.rows().torque.col(j);
   FaultHypothesis best;
   double most = 0.0, best_level = 0.0;

@@ -34,7 +34,7 @@ VectorXd named_size(const FaultLabel& label, Eigen::Index sizes) {
       out[1] = 1.0;  // dry, after viscous
       break;
     case FaultKind::collision:
-      out[label.joint - 1] = 1.0 / kUsualPush_s;  // a steady force on each joint comes first
+      out[label.joint.index()] = 1.0 / kUsualPush_s;  // a steady force on each joint comes first
       break;
     default:
       out[0] = 1.0;

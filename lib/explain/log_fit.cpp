@@ -136,7 +136,7 @@ CalmRows calm_rows(const LogFit& fit) {
 
 Stacked residual_without(const LogFit& fit, FaultClaim claim, double size) {
   claim.size = VectorXd::Constant(1, size);
-  return fit.residual_of(without_position_error(fit.log(), claim), claim.joint - 1, claim.onset_s);
+  return fit.residual_of(without_position_error(fit.log(), claim), claim.joint.index(), claim.onset_s);
 }
 
 FaultColumns columns_of(const LogFit& fit, const FaultClaim& claim) {
@@ -297,7 +297,7 @@ int LogFit::whitened_reach(int row) const {
   return static_cast<int>(out);
 }
 
-bool LogFit::is_silent(int joint, double time_s) const {
+bool LogFit::is_silent(Joint joint, double time_s) const {
   return std::ranges::any_of(known_, [&](const FaultClaim& claim) {
     return silences(claim.kind) && (claim.joint == joint || silences_all(claim)) && time_s >= claim.onset_s &&
            time_s < claim.end_s;
@@ -308,14 +308,14 @@ FaultColumns LogFit::between(const FaultColumns& columns, double onset_s, double
   return faultline::between(columns, rows_, model_.setting, onset_s, end_s);
 }
 
-Stacked LogFit::residual_of(const MeasuredMotion& moved, int joint, double from_s) const {
+Stacked LogFit::residual_of(const MeasuredMotion& moved, int j, double from_s) const {
   const double unmoved_s = from_s - reach_s(model_.setting) - velocity_reach_s(model_.setting, kForgotten);
   const int first = std::min(first_row(unmoved_s), count() - 1);
-  const MatrixXd after = reading_.of(moved, joint, first);
+  const MatrixXd after = reading_.of(moved, j, first);
   Stacked out = residual_;
-  for (int j = 0; j < joints(); ++j) {
-    const auto rest = [&](const Stacked& v) { return v.segment(j * count() + first, count() - first); };
-    out.segment(j * count() + first, count() - first) = after.col(j) - rest(spring_) - rest(known_torque_);
+  for (int i = 0; i < joints(); ++i) {
+    const auto rest = [&](const Stacked& v) { return v.segment(i * count() + first, count() - first); };
+    out.segment(i * count() + first, count() - first) = after.col(i) - rest(spring_) - rest(known_torque_);
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include "lib/balance/regress.hpp"
 #include "lib/balance/uniform_log.hpp"
 #include "lib/balance/work_piece.hpp"
+#include "lib/core/joint.hpp"
 #include "lib/explain/effect_columns.hpp"
 #include "lib/explain/fault_columns.hpp"
 
@@ -53,13 +54,14 @@ class LogFit {
   /// Log without the known false readings.
   const UniformLog& log() const { return log_; }
   const std::vector<FaultClaim>& known() const { return known_; }
-  /// Returns whether the rows of joint `joint` (from 1) are silent at a time because of a known fault.
-  bool is_silent(int joint, double time_s) const;
+  /// Returns whether the rows of a joint are silent at a time because of a known fault.
+  bool is_silent(Joint joint, double time_s) const;
   const BalanceModel& model() const { return model_; }
   const RowNoise& noise() const { return noise_; }
   const BalanceRows& rows() const { return rows_; }
   int count() const { return rows_.rows(); }
   int joints() const { return model_.joints(); }
+  Joint last_joint() const { return Joint::at(joints() - 1); }
   const Eigen::VectorXd& time_s() const { return rows_.time_s; }
   /// Returns the first row at or after a time; count() if there is none.
   int first_row(double time_s) const;
@@ -70,8 +72,8 @@ class LogFit {
   const Eigen::MatrixXd& std() const { return std_; }
   /// Residual torque of robot and known faults, before the effects.
   const Stacked& residual() const { return residual_; }
-  /// Returns the residual of a log with other measurements of joint `joint` (from 0) from `from_s` on.
-  Stacked residual_of(const MeasuredMotion& moved, int joint, double from_s) const;
+  /// Returns the residual of a log with other measurements of joint `j` (from 0) from `from_s` on.
+  Stacked residual_of(const MeasuredMotion& moved, int j, double from_s) const;
   const std::vector<LinearFault>& linear() const { return linear_; }
   /// Columns of the effects of every hypothesis: those of the day (DayLayout), then the sizes of the known
   /// faults.

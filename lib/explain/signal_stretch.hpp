@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/explain/decide_log.hpp"
 
 namespace faultline {
@@ -18,7 +19,7 @@ enum class SignalPair {
 /// add.
 struct SignalStretch {
   SignalPair pair = SignalPair::drive;
-  int joint = 0;         ///< from 1
+  Joint joint{};
   std::size_t id = 0;    ///< chosen by the caller
   double onset_s = 0.0;  ///< first sample at which they differ
   double alarm_s = 0.0;  ///< earliest sample at which the difference passes its limit

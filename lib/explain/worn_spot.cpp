@@ -27,7 +27,7 @@ struct PositionRange {
 };
 
 /// Whether a fault may be a visit of the joint to a worn spot: a torque of it that comes or goes.
-bool may_be_visit(const FaultClaim& claim, int joint) {
+bool may_be_visit(const FaultClaim& claim, Joint joint) {
   const bool is_torque = claim.kind == FaultKind::friction_increase || claim.kind == FaultKind::collision ||
                          claim.kind == FaultKind::torque_sensor_error;
   return claim.joint == joint && is_torque && !claim.grows;
@@ -60,7 +60,7 @@ Eigen::VectorXd presence(const LogFit& fit, const PositionRange& range, int j) {
 /// Returns the nats by which more friction in the range, from an onset on, explains the log.
 double gain_in(const LogFit& fit, const LinearFault& friction, const PositionRange& range, double onset_s) {
   FaultColumns columns = fit.between(friction.columns, onset_s, kNeverEnds);
-  const int j = friction.joint - 1, rows = fit.count();
+  const int j = friction.joint.index(), rows = fit.count();
   columns.column.middleRows(j * rows, rows).array().colwise() *= presence(fit, range, j).array();
   return fit.explain(fit.residual(), columns, fit.healthy().path).log_likelihood -
          fit.healthy().log_likelihood;
@@ -77,11 +77,11 @@ bool leaves(const LogFit& fit, const PositionRange& range, double onset_s, int j
 
 /// Returns the nats by which a worn spot explains the log, with the best range near the positions of the
 /// visits.
-double gain_of_spot(const LogFit& fit, const std::vector<FaultClaim>& visits, int joint) {
+double gain_of_spot(const LogFit& fit, const std::vector<FaultClaim>& visits, Joint joint) {
   const LinearFault* friction = linear_of(fit.linear(), {FaultKind::friction_increase, joint});
   const double onset_s = visits.front().onset_s;
-  PositionRange range = range_of(fit, visits, joint - 1);
-  if (friction == nullptr || !(range.low < range.high) || !leaves(fit, range, onset_s, joint - 1))
+  PositionRange range = range_of(fit, visits, joint.index());
+  if (friction == nullptr || !(range.low < range.high) || !leaves(fit, range, onset_s, joint.index()))
     return -std::numeric_limits<double>::infinity();
   const double search = kEdgeSearched * (range.high - range.low);
   for (double* edge : {&range.low, &range.high})
@@ -100,7 +100,7 @@ double gain_of_visits(const LogFit& together, const LogFit& without, const std::
 }
 
 /// Replaces the visits among the faults by one fault of no known kind that lasts from the first on.
-std::vector<ExplainedFault> with_one_spot(std::vector<ExplainedFault> faults, int joint) {
+std::vector<ExplainedFault> with_one_spot(std::vector<ExplainedFault> faults, Joint joint) {
   const auto is_visit = [&](const ExplainedFault& fault) { return may_be_visit(fault.claim, joint); };
   const auto first = std::ranges::find_if(faults, is_visit);
   first->could_also_be.insert(first->could_also_be.begin(), first->label());
@@ -114,7 +114,8 @@ std::vector<ExplainedFault> with_one_spot(std::vector<ExplainedFault> faults, in
 std::vector<ExplainedFault> without_worn_spots(const UniformLog& log, const BalanceModel& model,
                                                const std::vector<FaultClaim>& before,
                                                std::vector<ExplainedFault> faults) {
-  for (int joint = 1; joint <= model.joints(); ++joint) {
+  for (int j = 0; j < model.joints(); ++j) {
+    const Joint joint = Joint::at(j);
     std::vector<FaultClaim> visits, others = before;
     for (const ExplainedFault& fault : faults)
       (may_be_visit(fault.claim, joint) ? visits : others).push_back(fault.claim);

@@ -197,7 +197,7 @@ static_assert(every_kind_is_at_its_place(), "a kind is missing in the catalogue 
 
 const FaultDescription& describe(FaultKind kind) { return kCatalogue[static_cast<std::size_t>(kind)]; }
 
-std::vector<FaultLabel> fault_labels(int joints, const std::vector<int>& payload_links,
+std::vector<FaultLabel> fault_labels(int joints, const std::vector<Joint>& payload_links,
                                      bool torque_is_measured) {
   std::vector<FaultLabel> labels;
   for (int k = 0; k < kFaultKinds; ++k) {
@@ -205,10 +205,10 @@ std::vector<FaultLabel> fault_labels(int joints, const std::vector<int>& payload
     const bool is_hidden = fault.hidden_by_measured_torque && torque_is_measured;
     if (fault.place == FaultPlace::nowhere || fault.kind == FaultKind::unknown || is_hidden) continue;
     if (fault.place == FaultPlace::link) {
-      for (const int link : payload_links) labels.push_back({fault.kind, link + 1});
+      for (const Joint link : payload_links) labels.push_back({fault.kind, link});
       continue;
     }
-    for (int j = 1; j <= joints; ++j) labels.push_back({fault.kind, j});
+    for (int j = 0; j < joints; ++j) labels.push_back({fault.kind, Joint::at(j)});
   }
   return labels;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
@@ -98,9 +99,9 @@ struct FaultDescription {
 const FaultDescription& describe(FaultKind kind);
 
 /// Returns the possible faults of a robot of so many joints: each kind at each joint it can have, in the
-/// order of the catalogue, without the unknown fault. `payload_links`: links (from 0) whose payload is
+/// order of the catalogue, without the unknown fault. `payload_links`: joints of the links whose payload is
 /// identifiable. `torque_is_measured`: behind the drive, which hides some kinds.
-std::vector<FaultLabel> fault_labels(int joints, const std::vector<int>& payload_links,
+std::vector<FaultLabel> fault_labels(int joints, const std::vector<Joint>& payload_links,
                                      bool torque_is_measured);
 
 }  // namespace faultline

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/fault/fault_kind.hpp"
 
+#include <fmt/format.h>
+
 #include "lib/core/error.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 
@@ -20,7 +22,7 @@ FaultKind fault_kind_from(const std::string& name) {
 
 std::string label_text(const FaultLabel& label, const char* between) {
   const std::string kind = to_string(label.kind);
-  return label.joint > 0 ? kind + between + std::to_string(label.joint) : kind;
+  return label.joint.is_none() ? kind : fmt::format("{}{}{}", kind, between, label.joint);
 }
 
 }  // namespace faultline

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "lib/core/joint.hpp"
+
 namespace faultline {
 
 /// A kind of fault, described in fault_catalogue.cpp in the same order.
@@ -28,10 +30,11 @@ const char* to_string(FaultKind kind);
 /// Returns the kind of that name. Throws Error(usage) that lists the names if `name` is none of them.
 FaultKind fault_kind_from(const std::string& name);
 
-/// A kind at a joint. Joints count from 1; 0 if the fault belongs to no joint (none, unknown).
+/// A kind at a joint, or at the link that the joint moves; no joint if the fault belongs to none (none,
+/// unknown).
 struct FaultLabel {
   FaultKind kind = FaultKind::none;
-  int joint = 0;
+  Joint joint{};
 
   bool operator==(const FaultLabel&) const = default;
 };

@@ -8,14 +8,14 @@
 namespace faultline {
 
 std::string plain_words(const FaultLabel& label) {
-  if (label.joint <= 0) return describe(label.kind).heading;
+  if (label.joint.is_none()) return describe(label.kind).heading;
   const FaultDescription& fault = describe(label.kind);
   return fmt::format("{} {} {}", fault.place == FaultPlace::link ? "link" : "joint", label.joint,
                      fault.of_a_joint);
 }
 
 std::string next_check_for(const FaultLabel& label) {
-  const std::string joint = label.joint > 0 ? fmt::format("joint {}", label.joint) : "the joint";
+  const std::string joint = label.joint.is_none() ? "the joint" : fmt::format("joint {}", label.joint);
   return fmt::format(fmt::runtime(describe(label.kind).next_check), joint);
 }
 

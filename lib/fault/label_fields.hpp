@@ -6,7 +6,7 @@
 
 namespace faultline {
 
-/// Joint 0 is none. Reading throws Error(usage) for an unknown kind.
+/// Reading throws Error(usage) for an unknown kind.
 void fields(auto& v, MaybeConst<FaultLabel> auto& label) {
   v.named("kind", label.kind, fault_kind_from);
   v("joint", label.joint);

@@ -53,10 +53,12 @@ void read_length_rule(const TomlTable& table, Tolerances& into) {
   if (table.has("length_may_differ")) into.length_may_differ = table.flag("length_may_differ", false);
 }
 
+Joint joint(const TomlTable& table) { return Joint::numbered(static_cast<int>(table.integer("joint", 0))); }
+
 FaultLabel label(const TomlTable& table) {
   std::vector<std::string> kinds;
   for (int i = 0; i < kFaultKinds; ++i) kinds.push_back(to_string(static_cast<FaultKind>(i)));
-  return {fault_kind_from(table.choice("kind", kinds)), static_cast<int>(table.integer("joint", 0))};
+  return {fault_kind_from(table.choice("kind", kinds)), joint(table)};
 }
 
 Opinion opinion(const TomlTable& table) { return {label(table), table.any_number("confidence")}; }
@@ -77,8 +79,8 @@ ObservedEvent event(const TomlTable& table) {
 }
 
 JointResidual residual(const TomlTable& table) {
-  return {static_cast<int>(table.integer("joint", 0)), table.any_number("velocity_rms"),
-          table.any_number("velocity_peak"), table.any_number("peak_s"), table.any_number("position_rms")};
+  return {joint(table), table.any_number("velocity_rms"), table.any_number("velocity_peak"),
+          table.any_number("peak_s"), table.any_number("position_rms")};
 }
 
 GoldenLog log(const TomlTable& table, int joints) {
@@ -94,7 +96,8 @@ GoldenLog log(const TomlTable& table, int joints) {
   // A log that was only tracked has none.
   const int lines = static_cast<int>(read.expected.residuals.size());
   for (int j = 0; j < (lines == 0 ? 0 : std::max(joints, lines)); ++j)
-    if (j >= joints || j >= std::ssize(read.expected.residuals) || read.expected.residuals[j].joint != j + 1)
+    if (j >= joints || j >= std::ssize(read.expected.residuals) ||
+        read.expected.residuals[j].joint != Joint::at(j))
       table.fail("residuals",
                  fmt::format("expected one line for each of the {} joints in their order", joints));
   read.tolerances = tolerances(table.table("tolerance"));

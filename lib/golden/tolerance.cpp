@@ -110,8 +110,10 @@ Tolerances default_tolerances(const Model& model) {
   t.by_channel["parameter"] = {0.0, 0.001};
   t.by_channel["parameter_std"] = {0.0, 0.05};
   for (int j = 0; j < model.residual.joints(); ++j) {
-    t.by_channel[fmt::format("q{}", j + 1)] = {readable(0.02 * model.residual.healthy.position_rms[j]), 0.0};
-    t.by_channel[fmt::format("dq{}", j + 1)] = {readable(0.02 * model.residual.healthy.velocity_rms[j]), 0.0};
+    t.by_channel[fmt::format("q{}", Joint::at(j))] = {readable(0.02 * model.residual.healthy.position_rms[j]),
+                                                      0.0};
+    t.by_channel[fmt::format("dq{}", Joint::at(j))] = {
+        readable(0.02 * model.residual.healthy.velocity_rms[j]), 0.0};
   }
   t.length_may_differ = false;
   return t;

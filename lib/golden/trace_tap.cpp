@@ -11,8 +11,7 @@ namespace {
 Trace empty_trace(int joints) {
   Trace trace;
   for (const char* quantity : {"q", "dq"})
-    for (int joint = 1; joint <= joints; ++joint)
-      trace.channels.push_back(fmt::format("{}{}", quantity, joint));
+    for (int j = 0; j < joints; ++j) trace.channels.push_back(fmt::format("{}{}", quantity, Joint::at(j)));
   trace.values.resize(trace.channels.size());
   return trace;
 }

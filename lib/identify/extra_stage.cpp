@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/extra_stage.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -25,7 +27,8 @@ constexpr double kSlow_s = 0.02;      // samples farther apart show no spring
 std::vector<bool> unexplained_joints(const Gathered& gathered, const ModelChoice& choice) {
   std::vector<bool> out;
   for (int j = 0; j < static_cast<int>(choice.held_out_r2.size()); ++j)
-    out.push_back(!has_joint(gathered.windows.still, j) && choice.held_out_r2[j] < 1.0 - kLooked * kLooked);
+    out.push_back(!has_joint(gathered.windows.still, Joint::at(j)) &&
+                  choice.held_out_r2[j] < 1.0 - kLooked * kLooked);
   return out;
 }
 
@@ -35,10 +38,10 @@ std::vector<SharedDrive> drives_to_try(const ParameterSpace& space, const Robot&
                                        const ModelChoice& choice, const std::vector<bool>& look) {
   std::vector<SharedDrive> drives = space.chain.shared_drives;
   const int n = space.joints();
-  const auto add = [&](const Eigen::VectorXd& along, int joint) {
+  const auto add = [&](const Eigen::VectorXd& along, int widest) {
     for (const SharedDrive& f : drives)
       if ((f.along - along).norm() < kLeastAlong || (f.along + along).norm() < kLeastAlong) return;
-    drives.push_back({along, 0.0, 0.0, weak_width(space, joint, choice.weak.width[joint])});
+    drives.push_back({along, 0.0, 0.0, weak_width(space, widest, choice.weak.width[widest])});
   };
   if (robot.log.coupling.size() > 0) {
     const Eigen::MatrixXd coupled = robot.log.coupling.inverse();
@@ -72,7 +75,7 @@ ParameterSpace with_candidates(const DraftedModel& first, const Robot& robot, co
   std::vector<double> compliance(space.joints(), 0.0);
   for (int j = 0; j < space.joints(); ++j) {
     if (!look[j]) continue;
-    if (robot.known.count("fl" + std::to_string(j + 1)) == 0) chain.friction[j].load = 1.0;
+    if (robot.known.count(fmt::format("fl{}", Joint::at(j))) == 0) chain.friction[j].load = 1.0;
     compliance[j] = fast ? 1.0 : 0.0;
   }
   space.extra = extra_terms_of(chain, compliance);
@@ -130,7 +133,7 @@ std::vector<ModelTerm> listed(std::vector<ModelTerm> terms) {
 ModelDraft hold_known_load(const ParameterSpace& space, const Robot& robot, ModelDraft draft) {
   for (int p = space.extra_begin(); p < space.timing(); ++p) {
     const ExtraTerm& term = space.extra_at(p);
-    const auto known = robot.known.find("fl" + std::to_string(term.joint + 1));
+    const auto known = robot.known.find(fmt::format("fl{}", term.joint));
     if (term.kind != ExtraKind::load_friction || known == robot.known.end()) continue;
     draft.wanted.asked[p] = known->second.std > 0.0;
     draft.nominal[p] = known->second.value;
@@ -159,7 +162,7 @@ ModelChoice try_candidates(const Gathered& gathered, const Robot& robot, const M
   c.weak.set.assign(space.joints(), chooser.yardstick());
   c = choose_extra(chooser, draft.wanted.asked, std::move(c));
   std::vector<bool> counts;
-  for (int j = 0; j < space.joints(); ++j) counts.push_back(!has_joint(gathered.windows.still, j));
+  for (int j = 0; j < space.joints(); ++j) counts.push_back(!has_joint(gathered.windows.still, Joint::at(j)));
   if (robot.payloads.empty()) c = choose_gains(chooser, counts, std::move(c));
   for (int p = space.extra_begin(); p < space.timing(); ++p)
     c.wanted[p] = c.wanted[p] || draft.nominal[p] != 0.0;

@@ -123,11 +123,12 @@ Identification with_judged_columns(std::span<LogSource* const> logs, const Gathe
                                    bool is_infeasible, Identification id) {
   bool is_poor = is_infeasible;
   for (int j = 0; j < id.space.joints(); ++j) {
-    is_poor = is_poor || (!has_joint(gathered.windows.still, j) && !(id.fit_r2[j] > kGood));
+    is_poor = is_poor || (!has_joint(gathered.windows.still, Joint::at(j)) && !(id.fit_r2[j] > kGood));
     const auto found = std::find_if(gathered.surveys.begin(), gathered.surveys.end(),
                                     [j](const LogSurvey& log) { return log.velocity[j].is_other_unit(); });
     if (found != gathered.surveys.end())
-      id.take(FitStatus{IdentificationStatus::unexplained, other_unit_text(found->velocity[j], j + 1)});
+      id.take(
+          FitStatus{IdentificationStatus::unexplained, other_unit_text(found->velocity[j], Joint::at(j))});
   }
   if (!is_poor) return id;
   const Reinterpretation found = find_reinterpretation(logs, id.robot);
@@ -158,11 +159,11 @@ Identification with_settled_method(std::span<LogSource* const> logs, const Draft
                                    Identification id) {
   const TorqueFit& torque = model.draft.torque;
   const Eigen::VectorXd& nominal = model.draft.nominal;
-  const std::vector<int>& still = model.gathered.windows.still;
+  const std::vector<Joint>& still = model.gathered.windows.still;
   const bool has_dq = model.gathered.measurements.has_dq(), all_move = still.empty();  // else M is unknown
   double worst = 1.0;
   for (int j = 0; j < id.space.joints(); ++j)
-    if (!has_joint(still, j)) worst = std::min(worst, torque.fit.r2[j]);
+    if (!has_joint(still, Joint::at(j))) worst = std::min(worst, torque.fit.r2[j]);
   if (options.method == IdentifyMethod::automatic && worst < kWorthShooting) {
     id.issues.add(
         make_issue("torque_unexplained", Severity::note,
@@ -208,7 +209,7 @@ std::vector<ModelTerm> settled_terms(const ModelDraft& draft) {
   };
   std::vector<ModelTerm> terms = draft.choice.terms;
   for (ModelTerm& term : terms) {
-    if (term.kind == TermKind::delay) term.kept = draft.torque.shift[term.joint] != 0;
+    if (term.kind == TermKind::delay) term.kept = draft.torque.shift[term.joint.index()] != 0;
     for (int p = space.extra_begin(); p < space.timing(); ++p)
       if (term.kept && term.name == space.name(p)) term.kept = left(p);
   }
@@ -251,12 +252,13 @@ DraftedModel draft_model(std::span<LogSource* const> logs, Gathered gathered, co
 void add_gain_issues(const std::vector<double>& gain, Issues& issues) {
   for (std::size_t j = 0; j < gain.size(); ++j) {
     if (gain[j] == 1.0) continue;
+    const Joint joint = Joint::at(static_cast<int>(j));
     issues.add(make_issue(
-        fmt::format("torque_gain_{}", j + 1), Severity::warning,
+        fmt::format("torque_gain_{}", joint), Severity::warning,
         fmt::format("the torque of joint {} is {:.3f} times the value in its column, according to the "
                     "masses that it shares with the joints before: check its unit, torque constant and "
                     "gear ratio. The identified robot applies this factor (torque_gain)",
-                    j + 1, gain[j])));
+                    joint, gain[j])));
   }
 }
 
@@ -274,7 +276,7 @@ Robot with_drives(Robot robot, const std::vector<double>& gain, const TorqueFit&
     const ExtraTerm& term = space.extra_at(p);
     if (term.kind != ExtraKind::gear_compliance) continue;
     robot.gear_compliance.resize(n, 0.0);
-    robot.gear_compliance[term.joint] = torque.fit.parameters[p];
+    robot.gear_compliance[term.joint.index()] = torque.fit.parameters[p];
   }
   return robot;
 }
@@ -292,7 +294,7 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   id.issues = std::move(read.issues);
   DraftedModel model = draft_model(logs, std::move(read), options, id, id.issues);
   const Gathered& gathered = model.gathered;
-  const std::vector<int>& still = gathered.windows.still;
+  const std::vector<Joint>& still = gathered.windows.still;
   const ModelDraft& draft = model.draft;
   TorqueFit& torque = model.draft.torque;
   id.space = torque.space;
@@ -301,7 +303,7 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   id.robot = with_drives(std::move(id.robot), gathered.torque_gain, torque);
   add_gain_issues(gathered.torque_gain, id.issues);
 
-  const std::vector<int> undriven = undriven_joints(torque);
+  const std::vector<Joint> undriven = undriven_joints(torque);
   const Confounded confounded = confounded_parameters(robot, still, undriven, torque);
   torque.fit.confounded = confounded.parameters;
   id.condition_number = torque.fit.condition_number;

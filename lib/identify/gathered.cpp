@@ -64,13 +64,13 @@ Stretch shifted(const Stretch& s, const std::vector<int>& shift) {
   return out;
 }
 
-/// Returns the joints, from 1, whose position hardly changed in all logs.
-std::vector<int> unmoved_joints(const Measurements& measurements, const ParameterSpace& space) {
-  std::vector<int> still;
+/// Returns the joints whose position hardly changed in all logs.
+std::vector<Joint> unmoved_joints(const Measurements& measurements, const ParameterSpace& space) {
+  std::vector<Joint> still;
   const Eigen::VectorXd range = measurements.q_high() - measurements.q_low();
   for (int j = 0; j < space.joints(); ++j) {
     const double least = space.chain.geometry[j].kind == AxisKind::revolute ? kLeastTurn : kLeastWay_m;
-    if (measurements.still(j) || range[j] < least) still.push_back(j + 1);
+    if (measurements.still(j) || range[j] < least) still.push_back(Joint::at(j));
   }
   return still;
 }

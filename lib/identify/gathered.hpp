@@ -30,7 +30,7 @@ class Measurements {
   Eigen::VectorXd q_high() const { return high_.head(first_.size()); }
   /// Whether the range of a joint is within 20 times its noise in all logs, or the joint only jitters: the
   /// mean squared step between neighbours exceeds the variance (von Neumann 1941).
-  bool still(int joint) const;
+  bool still(int j) const;
 
  private:
   Eigen::VectorXd std() const;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/core/issue.hpp"
+#include "lib/core/joint.hpp"
 #include "lib/core/random.hpp"
 #include "lib/identify/excitation/excitation.hpp"
 #include "lib/identify/parameter_space.hpp"
@@ -73,7 +74,7 @@ enum class TermKind { parameter, candidate, delay };
 /// An optional term of the model, and its gain on held-out data.
 struct ModelTerm {
   std::string name;  ///< of the parameter, such as "jr2", or "delay_1"
-  int joint = 0;     ///< from 0: the joint whose torque judges it
+  Joint joint{};     ///< the joint whose torque judges it
   bool kept = false;
   double error_before = 0.0;            ///< held-out residual of that joint without it, N m or N rms
   double error_after = 0.0;             ///< with it

@@ -40,7 +40,7 @@ void check_term(const ExtraTerm& term, const Robot& robot, const std::string& wh
   const auto list = is_ripple(term.kind)            ? robot.chain.ripples.size()
                     : is_of_shared_drive(term.kind) ? robot.chain.shared_drives.size()
                                                     : static_cast<std::size_t>(robot.joints());
-  if (term.joint < 0 || term.joint >= robot.joints() || term.index < 0 ||
+  if (term.joint.is_none() || term.joint.index() >= robot.joints() || term.index < 0 ||
       static_cast<std::size_t>(term.index) >= list)
     refuse_term(name_of(term.kind), where);
 }
@@ -103,7 +103,7 @@ void fields(auto& v, MaybeConst<IdentifiedLog> auto& log) {
 
 void fields(auto& v, MaybeConst<ModelTerm> auto& term) {
   v("name", term.name);
-  v.from_one("joint", term.joint);
+  v("joint", term.joint);
   v("kept", term.kept);
   v("held_out_without", term.error_before);
   v("held_out_with", term.error_after);
@@ -111,7 +111,7 @@ void fields(auto& v, MaybeConst<ModelTerm> auto& term) {
 
 void fields(auto& v, MaybeConst<ExtraTerm> auto& term) {
   v.as("kind", term.kind, name_of, extra_kind_from);
-  v.from_one("joint", term.joint);
+  v("joint", term.joint);
   v("index", term.index);
 }
 

@@ -197,8 +197,8 @@ Round fit_groups(const std::vector<PayloadGroup>& groups, std::size_t logs, cons
 /// Whether lengths that the robot file does not state change the torques of given base parameters.
 bool needs_lengths(const Robot& robot) {
   Robot longer = robot;
-  for (std::size_t i = 0; i < longer.chain.length.size(); ++i)
-    if (!robot.known.contains(fmt::format("l{}", i + 1))) longer.chain.length[i] *= 1.0 + kOtherGuess;
+  for (int i = 0; i < std::ssize(longer.chain.length); ++i)
+    if (!robot.known.contains(fmt::format("l{}", Joint::at(i)))) longer.chain.length[i] *= 1.0 + kOtherGuess;
   const ParameterSpace given = parameter_space(robot), other = parameter_space(longer);
   return given.base.size() != other.base.size() || depends_on_lengths(given, other);
 }

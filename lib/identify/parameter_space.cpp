@@ -43,7 +43,7 @@ LinkVector rod_inertia(const Eigen::Vector3d& direction) {
 void add_link_candidates(const Robot& robot, int i, std::vector<BaseCandidate>& out) {
   const int n = robot.joints(), at = i * kLinkParameters;
   const auto add = [&](const std::string& name, const std::string& unit, const LinkVector& v) {
-    out.push_back(candidate(name + std::to_string(i + 1), unit, n));
+    out.push_back(candidate(fmt::format("{}{}", name, Joint::at(i)), unit, n));
     out.back().direction.segment<kLinkParameters>(at) = v;
   };
   const auto unit_vector = [](int k) { return LinkVector(LinkVector::Unit(k)); };
@@ -68,10 +68,10 @@ void add_link_candidates(const Robot& robot, int i, std::vector<BaseCandidate>& 
 /// Adds the rotor of joint i, which acts on its own joint alone.
 void add_rotor_candidate(const Robot& robot, int i, std::vector<BaseCandidate>& out) {
   const bool turns = robot.chain.geometry[i].kind == AxisKind::revolute;
-  BaseCandidate c = candidate("jr" + std::to_string(i + 1), turns ? "kg m^2" : "kg", robot.joints());
+  BaseCandidate c = candidate(fmt::format("jr{}", Joint::at(i)), turns ? "kg m^2" : "kg", robot.joints());
   c.parameter.is_rotor = true;
   c.direction[robot.joints() * kLinkParameters + i] = 1.0;
-  c.parameter.joint = i;
+  c.parameter.joint = Joint::at(i);
   out.push_back(std::move(c));
 }
 
@@ -109,7 +109,7 @@ std::vector<BaseCandidate> base_candidates(const Robot& robot) {
     out = scara_candidates(robot);
   for (int i = 0; i < robot.joints(); ++i) add_link_candidates(robot, i, out);
   for (int i = 0; i < robot.joints(); ++i)
-    if (robot.known.count("jr" + std::to_string(i + 1)) == 0) add_rotor_candidate(robot, i, out);
+    if (robot.known.count(fmt::format("jr{}", Joint::at(i))) == 0) add_rotor_candidate(robot, i, out);
   return out;
 }
 
@@ -167,10 +167,10 @@ std::string extra_name(const ParameterSpace& space, const ExtraTerm& term) {
   if (is_of_shared_drive(term.kind)) {
     const Eigen::VectorXd& along = space.chain.shared_drives[term.index].along;
     for (int j = 0; j < space.joints(); ++j)
-      if (along[j] != 0.0) name += fmt::format("{}{}", along[j] > 0.0 ? "+" : "-", j + 1);
+      if (along[j] != 0.0) name += fmt::format("{}{}", along[j] > 0.0 ? "+" : "-", Joint::at(j));
     return name;
   }
-  name += std::to_string(term.joint + 1);
+  name += fmt::format("{}", term.joint);
   return is_ripple(term.kind) ? fmt::format("{}_{:.5g}", name, space.chain.ripples[term.index].rate) : name;
 }
 
@@ -185,27 +185,26 @@ std::string extra_unit(ExtraKind kind, AxisKind axis) {
 
 }  // namespace
 
-int ParameterSpace::joint_of(int p) const {
+Joint ParameterSpace::joint_of(int p) const {
   if (p < rigid()) return base[p].joint;
-  if (p < extra_begin()) return (p - rigid()) % joints();
+  if (p < extra_begin()) return Joint::at((p - rigid()) % joints());
   if (p < timing()) return extra_at(p).joint;
-  return p == timing() ? 0 : p - timing() - 1;
+  return p == timing() ? Joint() : Joint::at(p - timing() - 1);
 }
 
 std::string ParameterSpace::name(int p) const {
-  const int n = joints();
   if (p < rigid()) return base[p].name;
   if (is_extra(p)) return extra_name(*this, extra_at(p));
   if (p == timing()) return "phi";
-  if (p > timing()) return fmt::format("width{}", p - timing());
+  if (p > timing()) return fmt::format("width{}", joint_of(p));
   constexpr const char* kFriction[] = {"fv_", "fc_", "offset_", "fb_", "fs_"};
-  return fmt::format("{}{}", kFriction[(p - rigid()) / n], (p - rigid()) % n + 1);
+  return fmt::format("{}{}", kFriction[(p - rigid()) / joints()], joint_of(p));
 }
 
 std::string ParameterSpace::unit(int p) const {
   if (p < rigid()) return base[p].unit;
   if (p == timing()) return "samples";
-  const AxisKind axis = chain.geometry[joint_of(p)].kind;
+  const AxisKind axis = chain.geometry[joint_of(p).index()].kind;
   if (p > timing()) return velocity_unit(axis);
   if (is_extra(p)) return extra_unit(extra_at(p).kind, axis);
   if (p < coulomb(0) || p >= skew(0)) return viscous_unit(axis);
@@ -234,7 +233,7 @@ ParameterSpace parameter_space(const Robot& robot) {
     kept.rightCols<1>() = column;
     lift.rightCols<1>() = c.direction;
     space.base.push_back(c.parameter);
-    if (c.parameter.is_rotor) space.chain.rotor_inertia[c.parameter.joint] = 0.0;
+    if (c.parameter.is_rotor) space.chain.rotor_inertia[c.parameter.joint.index()] = 0.0;
   }
   space.lift = lift;
   if (is_scara(robot)) return space;
@@ -298,15 +297,14 @@ Eigen::MatrixXd base_map(const ParameterSpace& space) {
   return (all * space.lift).colPivHouseholderQr().solve(all);
 }
 
-bool has_joint(const std::vector<int>& joints, int joint) {
-  return std::find(joints.begin(), joints.end(), joint + 1) != joints.end();
+bool has_joint(const std::vector<Joint>& joints, Joint joint) {
+  return std::find(joints.begin(), joints.end(), joint) != joints.end();
 }
 
-double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& values, int joint) {
+double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& values, int j) {
   double largest = 0.0;
-  for (int j = 0; j < space.joints(); ++j)
-    if (space.chain.geometry[j].kind == space.chain.geometry[joint].kind)
-      largest = std::max(largest, values[j]);
+  for (int i = 0; i < space.joints(); ++i)
+    if (space.chain.geometry[i].kind == space.chain.geometry[j].kind) largest = std::max(largest, values[i]);
   return largest;
 }
 
@@ -319,7 +317,7 @@ bool is_given_exactly(const ParameterSpace& space, const Robot& robot, int p) {
 }
 
 WantedParameters wanted_parameters(const ParameterSpace& space, const Robot& robot,
-                                   const std::vector<int>& still, bool try_offsets) {
+                                   const std::vector<Joint>& still, bool try_offsets) {
   WantedParameters wanted{std::vector<bool>(space.count(), true), std::vector<bool>(space.count(), false)};
   for (int p = 0; p < space.rigid(); ++p) wanted.optional[p] = space.base[p].is_rotor;
   for (int p = space.rigid(); p < space.timing(); ++p) {

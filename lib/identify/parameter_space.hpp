@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/balance/regressor.hpp"
+#include "lib/core/joint.hpp"
 #include "lib/identify/extra/extra_term.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -19,7 +20,7 @@ struct BaseParameter {
   std::string meaning;    ///< its sum, such as "I2 + 0.09 m3" at the lengths of `chain`
   bool is_mass = false;   ///< the mass of a link, as m3 of a SCARA
   bool is_rotor = false;  ///< inertia of a rotor, which acts on its own joint alone
-  int joint = 0;          ///< of a rotor, from 0
+  Joint joint{};          ///< of a rotor
 };
 
 /// The parameters that motion and torque of a robot depend on, in this order: base parameters, then for every
@@ -37,20 +38,20 @@ struct ParameterSpace {
 
   int joints() const { return chain.joints(); }
   int rigid() const { return static_cast<int>(base.size()); }
-  int viscous(int joint) const { return rigid() + joint; }
-  int coulomb(int joint) const { return rigid() + joints() + joint; }
-  int offset(int joint) const { return rigid() + 2 * joints() + joint; }
-  int bend(int joint) const { return rigid() + 3 * joints() + joint; }
-  int skew(int joint) const { return rigid() + 4 * joints() + joint; }
+  int viscous(int j) const { return rigid() + j; }
+  int coulomb(int j) const { return rigid() + joints() + j; }
+  int offset(int j) const { return rigid() + 2 * joints() + j; }
+  int bend(int j) const { return rigid() + 3 * joints() + j; }
+  int skew(int j) const { return rigid() + 4 * joints() + j; }
   int extra_begin() const { return rigid() + 5 * joints(); }
   int timing() const { return extra_begin() + static_cast<int>(extra.size()); }
-  int log_width(int joint) const { return timing() + 1 + joint; }
+  int log_width(int j) const { return timing() + 1 + j; }
   int count() const { return timing() + 1 + joints(); }
   /// Number of parameters in which torques are linear: all before the widths.
   int linear() const { return timing() + 1; }
 
-  /// Returns the joint of a parameter, from 0; 0 for the timing and base parameters other than rotors.
-  int joint_of(int parameter) const;
+  /// Returns the joint of a parameter; none for the timing and base parameters other than rotors.
+  Joint joint_of(int parameter) const;
   bool is_extra(int parameter) const { return parameter >= extra_begin() && parameter < timing(); }
   /// Returns the extra term of a parameter that is_extra().
   const ExtraTerm& extra_at(int parameter) const { return extra[parameter - extra_begin()]; }
@@ -79,11 +80,11 @@ Eigen::VectorXd parameters_of(const ParameterSpace& space, Chain chain, double p
 /// Returns the map from the numbers of links and rotors to base parameters: base x (11 n).
 Eigen::MatrixXd base_map(const ParameterSpace& space);
 
-/// Whether `joints`, from 1, have joint `joint`, from 0.
-bool has_joint(const std::vector<int>& joints, int joint);
+/// Whether `joints` have `joint`.
+bool has_joint(const std::vector<Joint>& joints, Joint joint);
 
-/// Returns the largest of the values, one a joint, among the joints of the same kind as `joint`.
-double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& values, int joint);
+/// Returns the largest of the values, one a joint, among the joints of the same kind as joint `j`.
+double largest_alike(const ParameterSpace& space, const Eigen::VectorXd& values, int j);
 
 /// Whether the robot file gives a parameter of friction exactly (Robot::known); false for base parameters.
 bool is_given_exactly(const ParameterSpace& space, const Robot& robot, int parameter);
@@ -95,10 +96,10 @@ struct WantedParameters {
                                ///< bent, skew and extra terms
 };
 
-/// Returns the parameters to be estimated. `still` are the joints that never move, from 1: at rest their
+/// Returns the parameters to be estimated. `still` are the joints that never move: at rest their
 /// friction may be anything up to stiction. Offsets, bends and skews are asked for only with `try_offsets`.
 WantedParameters wanted_parameters(const ParameterSpace& space, const Robot& robot,
-                                   const std::vector<int>& still, bool try_offsets);
+                                   const std::vector<Joint>& still, bool try_offsets);
 
 /// Returns the change of the base parameters by 1 kg at the end of each link: base parameters x links.
 Eigen::MatrixXd payload_columns(const ParameterSpace& space);

@@ -15,14 +15,14 @@ namespace faultline {
 namespace {
 
 /// Returns the still joints that affect a parameter: its own for friction, all for other parameters.
-std::vector<int> still_for(const Identification& id, int p, const std::vector<int>& still) {
+std::vector<Joint> still_for(const Identification& id, int p, const std::vector<Joint>& still) {
   if (p < id.space.rigid() || p == id.space.timing()) return still;
-  const int joint = id.space.joint_of(p);
-  return has_joint(still, joint) ? std::vector<int>{joint + 1} : std::vector<int>{};
+  const Joint joint = id.space.joint_of(p);
+  return has_joint(still, joint) ? std::vector<Joint>{joint} : std::vector<Joint>{};
 }
 
 /// Returns what to record so that the motion determines a parameter.
-std::string not_excited(const std::vector<int>& still) {
+std::string not_excited(const std::vector<Joint>& still) {
   if (still.empty())
     return "these motions do not distinguish it from the other parameters; give a log in which every joint "
            "moves at changing speed and reverses";
@@ -45,7 +45,7 @@ std::string why_kept(const Identification& id, int p, const TableFacts& facts) {
 }
 
 std::string why_not(const Identification& id, int p, const TableFacts& facts) {
-  const std::vector<int> still = still_for(id, p, facts.still);
+  const std::vector<Joint> still = still_for(id, p, facts.still);
   if (!still.empty() && p != id.space.timing()) return not_excited(still);
   if (const std::string why = why_kept(id, p, facts); !why.empty())
     return fmt::format("left at {:g}: {}",

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/identify/weak_form/weak_form.hpp"
 
@@ -17,10 +18,10 @@ bool has_fast_log(const Identification& id);
 
 /// Facts that explain why parameters were not estimated.
 struct TableFacts {
-  std::vector<bool> asked;    ///< by parameter: the weak form should estimate it
-  std::vector<int> still;     ///< joints that never move, from 1
-  std::vector<int> undriven;  ///< joints of negligible torque, from 1
-  std::vector<int> leaning;   ///< joints whose mass and rotor assume no friction offset, from 1
+  std::vector<bool> asked;      ///< by parameter: the weak form should estimate it
+  std::vector<Joint> still;     ///< joints that never move
+  std::vector<Joint> undriven;  ///< joints of negligible torque
+  std::vector<Joint> leaning;   ///< joints whose mass and rotor assume no friction offset
 };
 
 /// Returns what to record so that the motion determines a parameter.

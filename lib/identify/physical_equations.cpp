@@ -39,7 +39,7 @@ void PhysicalEquations::list_unknowns(std::span<const BaseEstimate> groups) {
   for (const char kind : {'m', 'l'})
     for (int i = 0; i < robot_.joints(); ++i) {
       if (kind == 'l' && robot_.shapes[i] != LinkShape::rod) continue;
-      PhysicalUnknown u{fmt::format("{}{}", kind, i + 1), kind, i, 1.0, 0.0, false};
+      PhysicalUnknown u{fmt::format("{}{}", kind, Joint::at(i)), kind, i, 1.0, 0.0, false};
       if (const auto it = robot_.known.find(u.name); it != robot_.known.end()) {
         u.value = it->second.value;
         u.std = it->second.std;

@@ -35,9 +35,8 @@ bool is_not_negative(const ParameterSpace& space, int p) {
 /// Returns an inertia that is negligible beside that of its joint.
 double small_rotor(const TorqueFit& torque, int p) {
   const Chain chain = chain_from(torque.space, torque.fit.parameters);
-  const int joint = torque.space.base[p].joint;
-  return kSmallRotor *
-         std::abs(inertia_matrix(chain, JointVector::Zero(chain.joints()).eval())(joint, joint));
+  const int j = torque.space.base[p].joint.index();
+  return kSmallRotor * std::abs(inertia_matrix(chain, JointVector::Zero(chain.joints()).eval())(j, j));
 }
 
 /// Returns the fit of the wanted parameters; the others stay at `nominal`.

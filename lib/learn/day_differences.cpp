@@ -18,21 +18,21 @@ namespace {
 constexpr double kLeastMemory_s = 0.002, kLongestMemory_s = 2.0;  // correlation time of a missed torque
 
 /// Sets the missed torque of a joint and its correlation time from the noise of its rows.
-void take_missed_torque(const BalanceModel& m, int joint, DayDifferences& out) {
-  const Eigen::VectorXd covariance = autocovariance(m.noise.joint[joint]);
-  const double variance = m.noise.joint[joint].base * covariance[0];
+void take_missed_torque(const BalanceModel& m, int j, DayDifferences& out) {
+  const Eigen::VectorXd covariance = autocovariance(m.noise.joint[j]);
+  const double variance = m.noise.joint[j].base * covariance[0];
   if (!(variance > 0.0)) return;
   const double again = covariance.size() > 1 ? covariance[1] / covariance[0] : 0.0;
   const double memory_s = again > 0.0 ? -m.setting.row_s() / elementary::log(again) : kLeastMemory_s;
-  out.missed[joint] = std::sqrt(variance);
-  out.missed_memory_s[joint] = std::clamp(memory_s, kLeastMemory_s, kLongestMemory_s);
+  out.missed[j] = std::sqrt(variance);
+  out.missed_memory_s[j] = std::clamp(memory_s, kLeastMemory_s, kLongestMemory_s);
 }
 
 DayLayout day_layout_of(const BalanceModel& m) { return day_layout(m); }
 StepDayLayout day_layout_of(const OneStepModel& m) { return m.day_layout(); }
 
-int offset_at(const DayLayout& at, int joint) { return at.offset(joint); }
-int offset_at(const StepDayLayout& at, int joint) { return at.force(joint); }
+int offset_at(const DayLayout& at, int j) { return at.offset(j); }
+int offset_at(const StepDayLayout& at, int j) { return at.force(j); }
 
 /// Returns an extra friction of the model, not negative; `estimate` if it is none. One-step models have no
 /// friction by load.

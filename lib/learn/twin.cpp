@@ -61,7 +61,7 @@ SimulatedFault draw_fault(const Twin& twin, const FaultLabel& label, double onse
   fault.onset_s = onset_s;
   auto draw_size = [&](int s) {
     return draw_from(ranges.size[s], random) *
-           usual_size(*twin.motion, kind.size[s].measure, label.joint - 1);
+           usual_size(*twin.motion, kind.size[s].measure, label.joint.index());
   };
   if (kind.size_count > 0) fault.size = draw_size(kind.size_count - 1);
   if (kind.size_count > 1) fault.viscous = draw_size(0);
@@ -76,11 +76,11 @@ std::vector<SimulatedFault> push_another_joint(const Twin& twin, std::vector<Sim
   const int joints = motion.joints();
   if (joints < 2 || random.uniform() > twin.options.second_push_share) return faults;
   SimulatedFault other = faults.front();
-  const int first = other.joint - 1;
+  const int first = other.joint.index();
   const int second = (first + 1 + static_cast<int>(random.below(joints - 1))) % joints;
   const double size = draw_from(twin.options.second_push, random);
   const double share = size * random_sign(random);
-  other.joint = second + 1;
+  other.joint = Joint::at(second);
   other.size = share * faults.front().size / motion.torque_scale[first] * motion.torque_scale[second];
   faults.push_back(other);
   return faults;

@@ -140,7 +140,7 @@ int time_fitness(const std::string& name) {
 
 std::string to_string(Channel channel) {
   const std::string prefix = prefix_of(channel.quantity);
-  return channel.quantity == Quantity::time ? prefix : prefix + std::to_string(channel.joint);
+  return channel.quantity == Quantity::time ? prefix : fmt::format("{}{}", prefix, channel.joint);
 }
 
 std::optional<Channel> canonical_channel(const std::string& name) {
@@ -149,8 +149,8 @@ std::optional<Channel> canonical_channel(const std::string& name) {
   if (digits == std::string::npos || digits + 1 == name.size() || name.size() - digits > 4)
     return std::nullopt;
   const std::string prefix = name.substr(0, digits + 1);
-  const int joint = std::stoi(name.substr(digits + 1));
-  if (joint < 1 || name[digits + 1] == '0') return std::nullopt;
+  const Joint joint = Joint::numbered(std::stoi(name.substr(digits + 1)));
+  if (joint.is_none() || name[digits + 1] == '0') return std::nullopt;
   for (const Quantity quantity : kJointQuantities)
     if (prefix == prefix_of(quantity)) return Channel{quantity, joint};
   return std::nullopt;
@@ -199,12 +199,12 @@ int find_time_column(const std::vector<std::string>& names) {
 }
 
 std::string joint_count_sentence(const Issues& issues, int found, const std::string& whose, int wanted) {
-  const std::string has = counted(found, "joint"), first = to_string({Quantity::q, found + 1});
+  const std::string has = counted(found, "joint"), first = to_string({Quantity::q, Joint::at(found)});
   if (found > wanted)
     return fmt::format("is a log of another robot: it has {}, but {} has {}", has, whose, wanted);
   if (const Issue* missing = issues.find("channel_missing", first))
     return fmt::format("has positions of {} only, but {} has {}: {}", has, whose, wanted, missing->message);
-  const std::string last = to_string({Quantity::q, wanted});
+  const std::string last = to_string({Quantity::q, Joint::at(wanted - 1)});
   return fmt::format(
       "has positions of {}, but {} has {}: it is a log of another robot, or {} not found among its columns; "
       "name such columns in the robot file: [log.columns] {} = {{name = \"...\"}}",

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/joint.hpp"
+
 namespace faultline {
 
 class Issues;
@@ -23,10 +25,10 @@ constexpr bool is_torque(Quantity quantity) {
   return quantity == Quantity::tau || quantity == Quantity::tau_ref || quantity == Quantity::tau_meas;
 }
 
-/// A canonical channel: a quantity and a joint, counted from 1; joint 0 for the time.
+/// A canonical channel: a quantity and a joint; no joint for the time.
 struct Channel {
   Quantity quantity = Quantity::time;
-  int joint = 0;
+  Joint joint{};
 
   auto operator<=>(const Channel&) const = default;  // NOLINT(modernize-use-nullptr)
 };

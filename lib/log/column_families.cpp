@@ -126,11 +126,11 @@ std::vector<std::pair<Channel, int>> named_joints(const std::vector<std::string>
   std::vector<std::pair<Channel, int>> found;
   if (!are_joints(positions)) return found;
   for (int j = 0; j < std::ssize(positions); ++j) {
-    found.emplace_back(Channel{Quantity::q, j + 1}, positions[j].column);
+    found.emplace_back(Channel{Quantity::q, Joint::at(j)}, positions[j].column);
     for (const Quantity quantity : kJointQuantities)
       if (const int column = best_column(columns, quantity, positions[j].reading.joint);
           quantity != Quantity::q && column >= 0)
-        found.emplace_back(Channel{quantity, j + 1}, column);
+        found.emplace_back(Channel{quantity, Joint::at(j)}, column);
   }
   return found;
 }

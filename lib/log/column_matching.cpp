@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/log/column_matching.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -38,13 +40,13 @@ std::string missing_column_sentence(const std::vector<std::string>& columns, con
 
 /// Returns a sentence that a joint has no position, though the column `later` shows that the log has it or a
 /// later one, and how to name one in the robot file.
-std::string missing_joint_sentence(const std::vector<std::string>& columns, int joint,
+std::string missing_joint_sentence(const std::vector<std::string>& columns, Joint joint,
                                    const std::string& later) {
   const std::string channel = to_string({Quantity::q, joint});
-  return "no column for the position of joint " + std::to_string(joint) + " (" + channel +
-         ") was found, although the log has " + quoted(later) +
-         "; only the joints before it are read. The columns are " + listed(columns) +
-         ". Name it in the robot file: [log.columns] " + channel + " = {name = \"...\"}";
+  return fmt::format(
+      "no column for the position of joint {} ({}) was found, although the log has {}; only the joints before "
+      "it are read. The columns are {}. Name it in the robot file: [log.columns] {} = {{name = \"...\"}}",
+      joint, channel, quoted(later), listed(columns), channel);
 }
 
 /// Returns a sentence that the header of a column has an unknown unit.
@@ -66,7 +68,7 @@ std::string rivals_sentence(const std::vector<std::string>& columns,
     if (&family != &chosen && (family.quantity == quantity || family.quantity == chosen.quantity))
       rivals += (rivals.empty() ? "" : ", ") + name_of(family);
   if (rivals.empty()) return "";
-  const std::string channel = to_string({quantity, 1});
+  const std::string channel = to_string({quantity, 1_joint});
   return name_of(chosen) + " was used as " + channel + "; " + rivals +
          " could also be meant. To choose, name the column in the robot file: [log.columns] " + channel;
 }
@@ -203,9 +205,9 @@ class Matcher {
                                                    : !is_torque(quantity) && family.quantity == quantity;
       const int column = family.column_of.begin()->second;
       if (!meant || used_.count(column)) continue;
-      if ((quantity == Quantity::q || quantity == Quantity::tau) && !taken_.count({quantity, 1}))
-        refuse_misfit(columns_[column], {}, {quantity, 1}, path_);
-      note("unit_of_other_dimension", to_string({family.quantity, 1}), Severity::note,
+      if ((quantity == Quantity::q || quantity == Quantity::tau) && !taken_.count({quantity, 1_joint}))
+        refuse_misfit(columns_[column], {}, {quantity, 1_joint}, path_);
+      note("unit_of_other_dimension", to_string({family.quantity, 1_joint}), Severity::note,
            not_taken_sentence(columns_[column], family.quantity));
     }
   }
@@ -224,9 +226,11 @@ class Matcher {
       const int column = column_named(to_string(channel));
       return channel.quantity == quantity && column >= 0 && used_.count(column) > 0;
     });
-    for (int j = 1; usual && j <= kMostJoints; ++j)
-      if (const int column = column_named(to_string({quantity, j})); column >= 0 && !used_.count(column))
-        add({quantity, j}, column);
+    for (int j = 0; usual && j < kMostJoints; ++j) {
+      const Channel channel{quantity, Joint::at(j)};
+      if (const int column = column_named(to_string(channel)); column >= 0 && !used_.count(column))
+        add(channel, column);
+    }
   }
 
   int first_of(const ColumnFamily& family) const { return family.first(first_position_, matching_.joints); }
@@ -261,17 +265,20 @@ class Matcher {
       const int joints = quantity == Quantity::q ? family->joints(first) : matching_.joints;
       for (int j = 0; j < joints; ++j)
         if (const auto column = family->column_of.find(first + j); column != family->column_of.end())
-          add({quantity, j + 1}, column->second);
+          add({quantity, Joint::at(j)}, column->second);
       note_rivals(quantity, *family);
     }
     judge_mismatched(quantity);
     if (quantity != Quantity::q) return;
-    while (taken_.count({Quantity::q, matching_.joints + 1})) ++matching_.joints;
+    while (taken_.count({Quantity::q, behind_last()})) ++matching_.joints;
     if (family) note_later_positions(*family);
   }
 
+  /// The first joint without a position.
+  Joint behind_last() const { return Joint::at(matching_.joints); }
+
   void note_missing_joint(const std::string& later, Severity severity) {
-    const int joint = matching_.joints + 1;
+    const Joint joint = behind_last();
     note("channel_missing", to_string({Quantity::q, joint}), severity,
          missing_joint_sentence(names_, joint, later));
   }
@@ -285,7 +292,7 @@ class Matcher {
 
   /// Notes a velocity or torque with a usual name for the joint behind the last position.
   void note_last_position() {
-    const int joint = matching_.joints + 1;
+    const Joint joint = behind_last();
     if (matching_.issues.find("channel_missing", to_string({Quantity::q, joint}))) return;
     for (const Quantity quantity : {Quantity::dq, Quantity::tau})
       if (const std::string name = to_string({quantity, joint}); column_named(name) >= 0)
@@ -295,13 +302,15 @@ class Matcher {
   void note_rivals(Quantity quantity, const ColumnFamily& chosen) {
     if (chosen.fitness >= 100) return;
     const std::string sentence = rivals_sentence(names_, families_, quantity, chosen);
-    if (!sentence.empty()) note("channel_ambiguous", to_string({quantity, 1}), Severity::note, sentence);
+    if (!sentence.empty())
+      note("channel_ambiguous", to_string({quantity, 1_joint}), Severity::note, sentence);
   }
 
   void finish() {
     auto& channels = matching_.channels;
     const int joints = matching_.joints;
-    std::erase_if(channels, [joints](const ChannelSource& source) { return source.channel.joint > joints; });
+    std::erase_if(channels,
+                  [joints](const ChannelSource& source) { return source.channel.joint.index() >= joints; });
     std::sort(channels.begin(), channels.end(),
               [](const ChannelSource& a, const ChannelSource& b) { return a.channel < b.channel; });
     for (const Quantity quantity : kJointQuantities) note_gaps(quantity);
@@ -314,15 +323,16 @@ class Matcher {
 
   /// Notes joints that lack a quantity which other joints have.
   void note_gaps(Quantity quantity) {
-    auto has = [&](int joint) { return taken_.count({quantity, joint}) > 0; };
+    auto has = [&](int j) { return taken_.count({quantity, Joint::at(j)}) > 0; };
     int present = 0;
-    for (int j = 1; j <= matching_.joints; ++j) present += has(j);
+    for (int j = 0; j < matching_.joints; ++j) present += has(j);
     if (present == 0) return;
-    for (int j = 1; j <= matching_.joints; ++j)
+    for (int j = 0; j < matching_.joints; ++j)
       if (!has(j))
-        note("channel_missing", to_string({quantity, j}), Severity::warning,
-             "no column for the " + std::string(meaning_of(quantity)) + " of joint " + std::to_string(j) +
-                 ", although other joints have one; it is treated as missing");
+        note("channel_missing", to_string({quantity, Joint::at(j)}), Severity::warning,
+             fmt::format(
+                 "no column for the {} of joint {}, although other joints have one; it is treated as missing",
+                 meaning_of(quantity), Joint::at(j)));
   }
 
   const std::vector<RawColumn>& columns_;

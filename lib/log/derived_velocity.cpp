@@ -25,7 +25,7 @@ constexpr double kCertain = 6.0;         // standard deviations of a delay
 constexpr double kLeastDelay = 0.5;      // rows: less is the uncertainty of the time that a row belongs to
 constexpr double kMedianOfAbs = 0.6745;  // median of |x| over the standard deviation of a normal x
 
-struct Joint {
+struct DerivedJoint {
   std::span<const double> time, q, dq;
   double period = 0.0;
 
@@ -39,7 +39,7 @@ struct Form {
 };
 
 /// Returns the distance of dq from a difference of q that kMostRows keep; infinity without motion.
-double distance(const Joint& m, const Form& form) {
+double distance(const DerivedJoint& m, const Form& form) {
   std::vector<double> distances;
   for (int k = 1; k + 1 < m.rows() && distances.size() < kEnoughRows; ++k) {
     const double step = m.q[k + form.ahead] - m.q[k - form.back];
@@ -133,7 +133,7 @@ class AddedVelocities {
 
 bool is_difference(std::span<const double> time, std::span<const double> q, std::span<const double> dq) {
   if (dq.size() != q.size() || q.size() < kVelocityFewestRows) return false;
-  const Joint joint{time, q, dq, median_step(time)};
+  const DerivedJoint joint{time, q, dq, median_step(time)};
   if (!(joint.period > 0.0)) return false;
   const double close = kSameAsDifference * white_noise(q) / joint.period;
   for (const bool by_period : {true, false})

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/log.hpp"
 
@@ -19,7 +20,7 @@ void for_each_joint_channel(AnyLog& log, Visit visit) {
   for (const Quantity quantity : kJointQuantities) {
     auto& signals = signals_of(log, quantity);
     for (std::size_t j = 0; j < signals.size(); ++j)
-      visit(signals[j], Channel{quantity, static_cast<int>(j) + 1});
+      visit(signals[j], Channel{quantity, Joint::at(static_cast<int>(j))});
   }
 }
 

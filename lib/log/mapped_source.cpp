@@ -158,7 +158,7 @@ void MappedSource::take_block(Log& segment) {
   }
   for (const ChannelSource& source : matching_.channels) {
     const auto [quantity, joint] = source.channel;
-    take(source, quantity == Quantity::time ? segment.time : signals_of(segment, quantity)[joint - 1]);
+    take(source, quantity == Quantity::time ? segment.time : signals_of(segment, quantity)[joint.index()]);
   }
   for_each_joint_channel(segment, [&](std::vector<double>& values, Channel channel) {
     const bool found = std::any_of(matching_.channels.begin(), matching_.channels.end(),

@@ -81,9 +81,9 @@ enum class Axis { unknown, turns, slides };
 
 Axis axis_of(const ChannelSummary& channel, const QualityOptions& options) {
   const auto known = canonical_channel(channel.name);
-  const std::size_t joint = known ? static_cast<std::size_t>(known->joint) : 0;
-  if (joint == 0 || joint > options.slides.size()) return Axis::unknown;
-  return options.slides[joint - 1] ? Axis::slides : Axis::turns;
+  const Joint joint = known ? known->joint : Joint();
+  if (joint.is_none() || joint.index() >= std::ssize(options.slides)) return Axis::unknown;
+  return options.slides[joint.index()] ? Axis::slides : Axis::turns;
 }
 
 /// The unit that a channel is taken in, the units that are more likely, and the unit to name as an example.
@@ -219,7 +219,7 @@ std::string time_guess(double factor, double period_s) {
       factor * period_s, period_s, factor);
 }
 
-void judge_one(const VelocityAgreement& agreement, int joint, const std::string& why, Issues& issues) {
+void judge_one(const VelocityAgreement& agreement, Joint joint, const std::string& why, Issues& issues) {
   const std::string channel = to_string({Quantity::dq, joint});
   if (agreement.verdict == VelocityVerdict::scaled)
     issues.add({"velocity_contradicts_position", channel, Severity::severe,
@@ -249,7 +249,7 @@ void judge_velocities(const std::vector<VelocityAgreement>& agreements, const Ti
                             factor, time_guess(factor, time.period_s))});
   for (std::size_t j = 0; j < agreements.size(); ++j) {
     const bool known = j < options.slides.size();
-    const int joint = static_cast<int>(j) + 1;
+    const Joint joint = Joint::at(static_cast<int>(j));
     const std::string guess =
         velocity_guess(agreements[j].factor, known && !options.slides[j], known && options.slides[j]);
     const std::string why = all_alike ? "so do those of all moving joints, see the sample period"

@@ -80,7 +80,7 @@ void fields(auto& v, MaybeConst<StepSetting> auto& s) {
 }
 
 void fields(auto& v, MaybeConst<RippleRate> auto& ripple) {
-  v.from_one("joint", ripple.joint);
+  v("joint", ripple.joint);
   v("rate", ripple.rate);
 }
 
@@ -152,7 +152,8 @@ BalanceModel balance_from_json(const nlohmann::json& json, const std::string& wh
   check_sizes(where, m.rigid.base(), {m.payload.rows()});
   for (const CoupledDrive& drive : m.setting.drives) check_sizes(where, n, {drive.along.size()});
   for (const RippleRate& ripple : m.setting.ripples)
-    if (ripple.joint < 0 || ripple.joint >= n) refuse_damaged(where, "a ripple has no valid joint");
+    if (ripple.joint.is_none() || ripple.joint.index() >= n)
+      refuse_damaged(where, "a ripple has no valid joint");
   if (m.setting.decimation < 1) refuse_damaged(where, "its rows lie less than a sample apart");
   return m;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/model/model.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "lib/core/atomic_file.hpp"
@@ -105,11 +107,11 @@ void visit_joint_lists(Usual& usual, Visit visit) {
 }
 
 void check_ranges(const UsualMotion& usual, const std::string& where) {
-  for (std::size_t j = 0; j < usual.q_low.size(); ++j)
+  for (int j = 0; j < std::ssize(usual.q_low); ++j)
     if (!(usual.q_low[j] <= usual.q_high[j]))
       throw Error(
           ErrorCode::input, where,
-          "\"q_low\" of joint " + std::to_string(j + 1) + " is above its \"q_high\"; learn the model again");
+          fmt::format("\"q_low\" of joint {} is above its \"q_high\"; learn the model again", Joint::at(j)));
 }
 
 nlohmann::json usual_motion_to_json(const UsualMotion& usual) {

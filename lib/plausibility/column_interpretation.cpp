@@ -69,13 +69,14 @@ void add_units(const Chain& chain, Interpretations& out) {
     const bool turns = chain.geometry[j].kind == AxisKind::revolute;
     const double by = turns ? kDegree : kMilli;
     const char* const unit = turns ? "deg" : "mm";
-    out.push_back(scaled(fmt::format("q{0} and dq{0} are in {1} and {1}/s", j + 1, unit),
-                         fmt::format("unit = \"{1}\" for q{0} and \"{1}/s\" for dq{0}", j + 1, unit), {j},
-                         scale_motion, by));
-    out.push_back(scaled(fmt::format("q{} is in {}", j + 1, unit),
-                         fmt::format("unit = \"{}\" for q{}", unit, j + 1), {j}, scale_position, by));
-    out.push_back(scaled(fmt::format("dq{} is in {}/s", j + 1, unit),
-                         fmt::format("unit = \"{}/s\" for dq{}", unit, j + 1), {j}, scale_velocity, by));
+    out.push_back(scaled(fmt::format("q{0} and dq{0} are in {1} and {1}/s", Joint::at(j), unit),
+                         fmt::format("unit = \"{1}\" for q{0} and \"{1}/s\" for dq{0}", Joint::at(j), unit),
+                         {j}, scale_motion, by));
+    out.push_back(scaled(fmt::format("q{} is in {}", Joint::at(j), unit),
+                         fmt::format("unit = \"{}\" for q{}", unit, Joint::at(j)), {j}, scale_position, by));
+    out.push_back(scaled(fmt::format("dq{} is in {}/s", Joint::at(j), unit),
+                         fmt::format("unit = \"{}/s\" for dq{}", unit, Joint::at(j)), {j}, scale_velocity,
+                         by));
   }
 }
 
@@ -84,31 +85,32 @@ void add_torque_units(const Chain& chain, Interpretations& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (const double by : {1e-3, 1e3})
       out.push_back(scaled(
-          fmt::format("tau{} is {} than the other torques", j + 1,
+          fmt::format("tau{} is {} than the other torques", Joint::at(j),
                       by < 1.0 ? "in a unit a thousand times smaller" : "in a unit a thousand times larger"),
-          fmt::format("scale = {:g} for tau{}", by, j + 1), {j}, scale_torque, by));
+          fmt::format("scale = {:g} for tau{}", by, Joint::at(j)), {j}, scale_torque, by));
 }
 
 void add_signs(const Chain& chain, Interpretations& out) {
   for (int j = 0; j < chain.joints(); ++j) {
-    out.push_back(scaled(fmt::format("tau{} has the opposite sign", j + 1),
-                         fmt::format("sign = -1 for tau{}", j + 1), {j}, scale_torque, -1.0));
-    out.push_back(scaled(fmt::format("q{0} and dq{0} have the opposite sign", j + 1),
-                         fmt::format("sign = -1 for q{0} and dq{0}", j + 1), {j}, scale_motion, -1.0));
-    out.push_back(scaled(fmt::format("dq{} has the opposite sign", j + 1),
-                         fmt::format("sign = -1 for dq{}", j + 1), {j}, scale_velocity, -1.0));
+    out.push_back(scaled(fmt::format("tau{} has the opposite sign", Joint::at(j)),
+                         fmt::format("sign = -1 for tau{}", Joint::at(j)), {j}, scale_torque, -1.0));
+    out.push_back(scaled(fmt::format("q{0} and dq{0} have the opposite sign", Joint::at(j)),
+                         fmt::format("sign = -1 for q{0} and dq{0}", Joint::at(j)), {j}, scale_motion, -1.0));
+    out.push_back(scaled(fmt::format("dq{} has the opposite sign", Joint::at(j)),
+                         fmt::format("sign = -1 for dq{}", Joint::at(j)), {j}, scale_velocity, -1.0));
   }
 }
 
 void add_swaps(const Chain& chain, Interpretations& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (int k = j + 1; k < chain.joints(); ++k) {
-      out.push_back({fmt::format("tau{} and tau{} are swapped", j + 1, k + 1),
-                     fmt::format("the other column for tau{} and tau{}", j + 1, k + 1),
+      out.push_back({fmt::format("tau{} and tau{} are swapped", Joint::at(j), Joint::at(k)),
+                     fmt::format("the other column for tau{} and tau{}", Joint::at(j), Joint::at(k)),
                      [j, k](Log& log) { std::swap(log.tau[j], log.tau[k]); }});
-      out.push_back({fmt::format("joints {} and {} are swapped in q and dq", j + 1, k + 1),
-                     fmt::format("the other columns for q{0}, dq{0} and q{1}, dq{1}", j + 1, k + 1),
-                     [j, k](Log& log) { swap_motion(log, j, k); }});
+      out.push_back(
+          {fmt::format("joints {} and {} are swapped in q and dq", Joint::at(j), Joint::at(k)),
+           fmt::format("the other columns for q{0}, dq{0} and q{1}, dq{1}", Joint::at(j), Joint::at(k)),
+           [j, k](Log& log) { swap_motion(log, j, k); }});
     }
 }
 
@@ -134,10 +136,10 @@ void add_swapped_joints(const Chain& chain, Interpretations& out) {
   for (int j = 0; j < chain.joints(); ++j)
     for (int k = j + 1; k < chain.joints(); ++k)
       out.push_back(
-          {fmt::format("joints {} and {} are swapped", j + 1, k + 1),
+          {fmt::format("joints {} and {} are swapped", Joint::at(j), Joint::at(k)),
            fmt::format("the columns of joint {1} for q{0}, dq{0} and tau{0}, and those of joint {0} "
                        "for joint {1}",
-                       j + 1, k + 1),
+                       Joint::at(j), Joint::at(k)),
            [j, k](Log& log) {
              swap_motion(log, j, k);
              std::swap(log.tau[j], log.tau[k]);
@@ -147,9 +149,9 @@ void add_swapped_joints(const Chain& chain, Interpretations& out) {
 /// Adds joints with the opposite direction of counting, which differs from a wrong sign of one column.
 void add_reversed_joints(const Chain& chain, Interpretations& out) {
   for (int j = 0; j < chain.joints(); ++j)
-    out.push_back(
-        scaled(fmt::format("joint {0} counts in the opposite direction (q{0}, dq{0} and tau{0})", j + 1),
-               fmt::format("sign = -1 for q{0}, dq{0} and tau{0}", j + 1), {j}, scale_joint, -1.0));
+    out.push_back(scaled(
+        fmt::format("joint {0} counts in the opposite direction (q{0}, dq{0} and tau{0})", Joint::at(j)),
+        fmt::format("sign = -1 for q{0}, dq{0} and tau{0}", Joint::at(j)), {j}, scale_joint, -1.0));
 }
 
 /// Returns the interpretations, whose cures are entries of [log.columns] so far, with whole instructions.

@@ -15,7 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 FaultLabel label_from(const Json& json) {
-  return {fault_kind_from(json.at("kind").get<std::string>()), count_or_zero(json.at("joint"))};
+  return {fault_kind_from(json.at("kind").get<std::string>()),
+          Joint::numbered(count_or_zero(json.at("joint")))};
 }
 
 Opinion opinion_from(const Json& json) { return {label_from(json), json.at("confidence").get<double>()}; }

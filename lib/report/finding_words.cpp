@@ -120,7 +120,7 @@ std::vector<std::string> evidence_lines(const FaultFinding& fault) {
 std::vector<std::vector<std::string>> residual_rows(const Diagnosis& d) {
   std::vector<std::vector<std::string>> rows;
   for (const JointResidual& r : d.residuals)
-    rows.push_back({std::to_string(r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
+    rows.push_back({fmt::format("{}", r.joint), value_text(r.velocity_rms), value_text(r.velocity_peak),
                     time_text(r.velocity_peak_s, d.log.sample_period_s), value_text(r.position_rms)});
   return rows;
 }

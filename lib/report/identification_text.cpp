@@ -28,24 +28,24 @@ std::string parameter_row(const ParameterEstimate& e) {
 
 std::string fit_text(const Identification& id) {
   std::string text = "fit\n";
-  for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
+  for (int j = 0; j < std::ssize(id.fit_r2); ++j)
     text += fmt::format(
         "  joint {}   R2 {:.5f}, held out {:.5f}; torque residual {:.4g} rms, {:.2g} ms late; noise of q "
         "{:.3g}{}\n",
-        j + 1, id.fit_r2[j], id.held_out_r2[j], id.residual_rms[j], 1e3 * id.torque_delay_s[j], id.q_noise[j],
-        id.dq_noise.empty() ? "" : fmt::format(", of dq {:.3g}", id.dq_noise[j]));
+        Joint::at(j), id.fit_r2[j], id.held_out_r2[j], id.residual_rms[j], 1e3 * id.torque_delay_s[j],
+        id.q_noise[j], id.dq_noise.empty() ? "" : fmt::format(", of dq {:.3g}", id.dq_noise[j]));
   for (const ModelTerm& t : id.terms)
     text += fmt::format("  {:<9} {}: held-out residual of joint {} {:.4g} without, {:.4g} with it\n", t.name,
-                        term_verdict(t), t.joint + 1, t.error_before, t.error_after);
+                        term_verdict(t), t.joint, t.error_before, t.error_after);
   return text + fmt::format("  condition number {:.3g}\n", id.condition_number);
 }
 
 std::string pattern_text(const Identification& id) {
   std::string text = "patterns of the torque residual, in shares of its variance\n";
-  for (std::size_t j = 0; j < id.residual_patterns.size(); ++j) {
+  for (int j = 0; j < std::ssize(id.residual_patterns); ++j) {
     const ResidualPattern& p = id.residual_patterns[j];
     text += fmt::format("  joint {}   position {}, speed {}, torque {}, its value a window before {}\n",
-                        j + 1, share_text(p.position), share_text(p.speed), share_text(p.torque),
+                        Joint::at(j), share_text(p.position), share_text(p.speed), share_text(p.torque),
                         share_text(p.previous));
   }
   return text;
@@ -53,12 +53,12 @@ std::string pattern_text(const Identification& id) {
 
 std::string motion_text(const Identification& id) {
   std::string text = "motion\n";
-  for (std::size_t j = 0; j < id.excitation.joints.size(); ++j) {
+  for (int j = 0; j < std::ssize(id.excitation.joints); ++j) {
     const JointExcitation& e = id.excitation.joints[j];
     const AxisKind kind = id.space.chain.geometry[j].kind;
     text += fmt::format("  joint {}   {:.4g} to {:.4g} {}, at most {:.3g} forward and {:.3g} back {}\n",
-                        j + 1, e.q_low, e.q_high, position_unit(kind), e.fastest_forward, e.fastest_back,
-                        velocity_unit(kind));
+                        Joint::at(j), e.q_low, e.q_high, position_unit(kind), e.fastest_forward,
+                        e.fastest_back, velocity_unit(kind));
   }
   for (const std::string& line : excitation_lines(id)) text += "  " + line + "\n";
   return text;
@@ -112,9 +112,9 @@ std::string mixture_text(const Excitation& excitation) {
 std::vector<std::string> excitation_lines(const Identification& id) {
   std::vector<std::string> lines;
   bool hardly = false;
-  for (std::size_t j = 0; j < id.excitation.joints.size(); ++j)
+  for (int j = 0; j < std::ssize(id.excitation.joints); ++j)
     if (const std::string& lacks = id.excitation.joints[j].lacks; !lacks.empty())
-      lines.push_back(fmt::format("joint {}: {}", j + 1, lacks));
+      lines.push_back(fmt::format("joint {}: {}", Joint::at(j), lacks));
   for (const ParameterExcitation& p : id.excitation.parameters) {
     if (std::isnan(p.own))
       lines.push_back(fmt::format("{} does not show in the torque of this motion", p.name));

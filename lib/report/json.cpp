@@ -12,14 +12,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Joint 0 (the fault belongs to no joint) is null.
+/// No joint is null.
 void put_label(Json& json, const FaultLabel& label) {
   json["kind"] = to_string(label.kind);
-  json["joint"] = count_or_null(label.joint);
+  json["joint"] = count_or_null(label.joint.number());
 }
 
 Json stretch_json(const UnjudgedStretch& stretch) {
-  Json json = {{"joint", count_or_null(stretch.joint)},
+  Json json = {{"joint", count_or_null(stretch.joint.number())},
                {"start_s", number_or_null(stretch.start_s)},
                {"end_s", number_or_null(stretch.end_s)},
                {"lacks_position", stretch.lacks_position},
@@ -53,7 +53,7 @@ Json model_json(const ModelFacts& model) {
 }
 
 Json residual_json(const JointResidual& residual) {
-  return {{"joint", residual.joint},
+  return {{"joint", residual.joint.number()},
           {"velocity_rms", number_or_null(residual.velocity_rms)},
           {"velocity_peak", number_or_null(residual.velocity_peak)},
           {"peak_s", number_or_null(residual.velocity_peak_s)},
@@ -62,7 +62,7 @@ Json residual_json(const JointResidual& residual) {
 
 Json condition_json(const ConditionItem& item) {
   return {{"name", item.name},
-          {"joint", count_or_null(item.joint)},
+          {"joint", count_or_null(item.joint.number())},
           {"value", number_or_null(item.value)},
           {"ci95", {number_or_null(item.ci95[0]), number_or_null(item.ci95[1])}},
           {"normal_range", number_or_null(item.normal_range)},

@@ -39,11 +39,10 @@ std::string failure(const FaultFinding& fault) {
 
 std::vector<JunitCase> test_cases(const Diagnosis& diagnosis) {
   std::vector<JunitCase> cases = {{"robot", ""}};
-  for (int joint = 1; joint <= diagnosis.log.joints; ++joint)
-    cases.push_back({fmt::format("joint {}", joint), ""});
+  for (int j = 0; j < diagnosis.log.joints; ++j) cases.push_back({fmt::format("joint {}", Joint::at(j)), ""});
   for (const FaultFinding& fault : diagnosis.faults) {
-    const bool has_case = fault.label.joint > 0 && fault.label.joint < std::ssize(cases);
-    cases[has_case ? fault.label.joint : 0].body += failure(fault);
+    const int place = fault.label.joint.number();  // the case of no joint comes first
+    cases[place > 0 && place < std::ssize(cases) ? place : 0].body += failure(fault);
   }
   if (diagnosis.faults.empty() && diagnosis.verdict != Verdict::healthy)
     cases[0].body +=

@@ -15,9 +15,9 @@ FactTable robot_facts(const Model& model) {
   FactTable table{"", {}, {}};
   table.rows.push_back({"robot", fmt::format("{} ({} joints)", model.name, model.robot.joints())});
   table.rows.push_back({"usual sample period", fact_text(model.sample_period_s, "s")});
-  for (std::size_t j = 0; j < id.fit_r2.size(); ++j)
-    table.rows.push_back(
-        {fmt::format("joint {}: torque explained", j + 1), fmt::format("{:.2f} %", 100.0 * id.fit_r2[j])});
+  for (int j = 0; j < std::ssize(id.fit_r2); ++j)
+    table.rows.push_back({fmt::format("joint {}: torque explained", Joint::at(j)),
+                          fmt::format("{:.2f} %", 100.0 * id.fit_r2[j])});
   return table;
 }
 

@@ -54,17 +54,18 @@ void draw(Bar& bar, const FaultFinding& fault, const Scale& scale) {
 
 int joints_of(const Diagnosis& d) {
   int joints = d.log.joints;
-  for (const FaultFinding& fault : d.faults) joints = std::max(joints, fault.label.joint);
+  for (const FaultFinding& fault : d.faults) joints = std::max(joints, fault.label.joint.number());
   return joints;
 }
 
-/// By joint; index 0 is the robot's bar, which is drawn only when a fault belongs to no joint.
+/// By number of the joint; index 0 is the robot's bar, which is drawn only when a fault belongs to no joint.
 std::vector<Bar> bars_of(const Diagnosis& d, const Scale& scale) {
   std::vector<Bar> bars;
-  for (int joint = 0; joint <= joints_of(d); ++joint)
-    bars.push_back({joint ? fmt::format("joint {}", joint) : "robot",
+  for (int number = 0; number <= joints_of(d); ++number)
+    bars.push_back({number ? fmt::format("joint {}", number) : "robot",
                     std::vector<Cell>(scale.cells, Cell::fine), std::string(scale.cells, ' ')});
-  for (const FaultFinding& fault : d.faults) draw(bars[std::max(fault.label.joint, 0)], fault, scale);
+  for (const FaultFinding& fault : d.faults)
+    draw(bars[std::max(fault.label.joint.number(), 0)], fault, scale);
   return bars;
 }
 
@@ -122,9 +123,9 @@ std::string render_timeline(const Diagnosis& diagnosis, const TimelineOptions& o
   if (!(std::isfinite(scale.start_s) && std::isfinite(scale.end_s) && scale.end_s > scale.start_s)) return "";
   const std::vector<Bar> bars = bars_of(diagnosis, scale);
   std::string text;
-  for (std::size_t joint = 0; joint < bars.size(); ++joint)
-    if (joint > 0 || bars[0].marks.find_first_not_of(' ') != std::string::npos)
-      text += rendered(bars[joint], options);
+  for (std::size_t i = 0; i < bars.size(); ++i)
+    if (i > 0 || bars[0].marks.find_first_not_of(' ') != std::string::npos)
+      text += rendered(bars[i], options);
   return text + axis(scale) + legend(diagnosis, options.unicode);
 }
 

@@ -81,7 +81,7 @@ std::vector<JointResidual> ResidualSummary::joints() const {
   std::vector<JointResidual> out;
   for (const Sums& sums : sums_) {
     JointResidual joint;
-    joint.joint = static_cast<int>(out.size()) + 1;
+    joint.joint = Joint::at(static_cast<int>(out.size()));
     if (sums.count > 0) {
       const double count = static_cast<double>(sums.count);
       joint.velocity_rms = std::sqrt(sums.velocity2 / count);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/log/log.hpp"
 #include "lib/residual/residual_generator.hpp"
 #include "lib/residual/transitions.hpp"
@@ -49,7 +50,7 @@ Residuals residuals_of(const ResidualGenerator& generator, const Transitions& tr
 /// prediction of the MLP), normalised by its healthy rms, so that about 1 is healthy. NaN when no residual
 /// could be computed.
 struct JointResidual {
-  int joint = 0;  ///< from 1
+  Joint joint{};
   double velocity_rms = std::numeric_limits<double>::quiet_NaN();
   double velocity_peak = std::numeric_limits<double>::quiet_NaN();  ///< largest magnitude
   double velocity_peak_s = std::numeric_limits<double>::quiet_NaN();

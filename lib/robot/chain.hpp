@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "lib/core/joint.hpp"
+
 namespace faultline {
 
 inline constexpr int kMaxJoints = 8;
@@ -53,7 +55,7 @@ double steepest(const Friction& friction, double torque = 0.0);
 /// Torque cosine cos(rate q) + sine sin(rate q) that repeats with the position of a joint, caused by its
 /// gear, motor or spindle.
 struct Ripple {
-  int joint = 0;                    ///< from 0
+  Joint joint{};
   double rate = 0.0;                ///< 1/rad or 1/m
   double cosine = 0.0, sine = 0.0;  ///< N m or N
 };

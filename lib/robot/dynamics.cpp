@@ -146,8 +146,8 @@ JointMatrix inertia_matrix(const Chain& chain, const JointVector& q) {
 
 void add_extra_torque(const Chain& chain, const JointVector& q, const JointVector& dq, JointVector& torque) {
   for (const Ripple& r : chain.ripples) {
-    const auto [s, c] = elementary::sin_cos(r.rate * q[r.joint]);
-    torque[r.joint] += r.cosine * c + r.sine * s;
+    const auto [s, c] = elementary::sin_cos(r.rate * q[r.joint.index()]);
+    torque[r.joint.index()] += r.cosine * c + r.sine * s;
   }
   for (const SharedDrive& f : chain.shared_drives) {
     double speed = 0.0;

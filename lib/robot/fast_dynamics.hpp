@@ -23,12 +23,10 @@ class FastDynamics {
   bool planar() const { return planar_; }
   const Chain& chain() const { return chain_; }
   /// Whether the rigid-body torque can depend on the position or the velocity of a joint.
-  bool depends_on_position(int joint) const {
-    return !planar_ || (depends_on_velocity(joint) && (gravity_in_plane_ || joint != revolute_joint_[0]));
+  bool depends_on_position(int j) const {
+    return !planar_ || (depends_on_velocity(j) && (gravity_in_plane_ || j != revolute_joint_[0]));
   }
-  bool depends_on_velocity(int joint) const {
-    return !planar_ || chain_.geometry[joint].kind == AxisKind::revolute;
-  }
+  bool depends_on_velocity(int j) const { return !planar_ || chain_.geometry[j].kind == AxisKind::revolute; }
 
   /// M(q) and h(q, dq) + G(q).
   void inertia_and_bias(const JointVector& q, const JointVector& dq, JointMatrix& inertia,

@@ -81,7 +81,7 @@ ColumnSpec column_spec(const TomlTable& columns, const std::string& channel) {
 std::vector<std::string> channel_names(int joints) {
   std::vector<std::string> names{"t"};
   for (const Quantity quantity : kJointQuantities)
-    for (int j = 1; j <= joints; ++j) names.push_back(to_string(Channel{quantity, j}));
+    for (int j = 0; j < joints; ++j) names.push_back(to_string(Channel{quantity, Joint::at(j)}));
   return names;
 }
 
@@ -132,7 +132,7 @@ void read_family(const TomlTable& columns, const std::string& family, int joints
   for (int j = 0; j < joints; ++j) {
     ColumnSpec spec = pattern;
     spec.name.replace(sign, 1, std::to_string(first + j));
-    map[family + std::to_string(j + 1)] = spec;
+    map[fmt::format("{}{}", family, Joint::at(j))] = spec;
   }
 }
 

@@ -62,8 +62,8 @@ Chain with_payload(const Chain& chain, int link, double kg) {
   return loaded;
 }
 
-std::vector<int> payload_links(const Chain& chain) {
-  std::vector<int> out;
+std::vector<Joint> payload_links(const Chain& chain) {
+  std::vector<Joint> out;
   std::vector<Eigen::VectorXd> later;
   for (int link = chain.joints() - 1; link >= 0; --link) {
     Eigen::VectorXd torque = torques_of_payload(chain, link);
@@ -71,7 +71,7 @@ std::vector<int> payload_links(const Chain& chain) {
     if (std::any_of(later.begin(), later.end(), [&](const auto& other) { return are_one(torque, other); }))
       continue;
     later.push_back(std::move(torque));
-    out.push_back(link);
+    out.push_back(Joint::at(link));
   }
   std::reverse(out.begin(), out.end());
   return out;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {
@@ -15,9 +16,9 @@ Eigen::Vector3d link_end(const Chain& chain, int link);
 /// Returns the chain with `kg` added (negative: removed) as a point mass at the end of link `link` (from 0).
 Chain with_payload(const Chain& chain, int link, double kg);
 
-/// Returns the links (from 0) whose payload a log can distinguish: a mass at the link's end takes torque in
-/// some joint, and not in proportion to the torque of a mass at the end of a later link. A link whose end
-/// lies on all axes before it, or coincides with the end of a later link, is left out.
-std::vector<int> payload_links(const Chain& chain);
+/// Returns the links, by the joints that move them, whose payload a log can distinguish: a mass at the link's
+/// end takes torque in some joint, and not in proportion to the torque of a mass at the end of a later link.
+/// A link whose end lies on all axes before it, or coincides with the end of a later link, is left out.
+std::vector<Joint> payload_links(const Chain& chain);
 
 }  // namespace faultline

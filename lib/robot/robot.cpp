@@ -131,19 +131,19 @@ TorqueTiming torque_between_samples(const Robot& robot) {
 std::vector<std::string> parameter_names(int joints) {
   std::vector<std::string> names;
   for (const char* prefix : {"m", "l", "fv", "fc", "fo", "fb", "fs", "fl", "jr"})
-    for (int j = 1; j <= joints; ++j) names.push_back(prefix + std::to_string(j));
+    for (int j = 0; j < joints; ++j) names.push_back(fmt::format("{}{}", prefix, Joint::at(j)));
   return names;
 }
 
 bool set_parameter(Robot& robot, const std::string& name, double value) {
   const std::size_t digits = name.find_first_of("0123456789");
-  int joint = 0;
+  int number = 0;
   if (digits == std::string::npos || digits == 0) return false;
-  const auto [end, error] = std::from_chars(name.data() + digits, name.data() + name.size(), joint);
-  if (error != std::errc() || end != name.data() + name.size() || joint < 1 || joint > robot.joints())
+  const auto [end, error] = std::from_chars(name.data() + digits, name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size() || number < 1 || number > robot.joints())
     return false;
   const std::string what = name.substr(0, digits);
-  const int i = joint - 1;
+  const int i = Joint::numbered(number).index();
   Chain& chain = robot.chain;
   LinkInertia& link = chain.links[i];
   for (const auto& [prefix, term] : kFrictionTerms) {

@@ -219,8 +219,8 @@ Chain read_extra_torque(const TomlTable& table, Chain chain) {
     const double rate = ripple.number("rate");
     if (!(rate > 0.0 && rate <= kFastest))
       ripple.fail("rate", fmt::format("expected a number above 0 and up to {}, found {}", kFastest, rate));
-    chain.ripples.push_back(
-        {static_cast<int>(joint) - 1, rate, ripple.number("cosine", 0.0), ripple.number("sine", 0.0)});
+    chain.ripples.push_back({Joint::numbered(static_cast<int>(joint)), rate, ripple.number("cosine", 0.0),
+                             ripple.number("sine", 0.0)});
   }
   for (const TomlTable& shared : table.tables("shared_drive")) {
     const auto along = shared.numbers("along", n);

@@ -109,8 +109,8 @@ std::string identified_text(const Robot& robot) {
 std::string extra_torque_text(const Chain& chain, const std::string& prefix) {
   std::string text;
   for (const Ripple& r : chain.ripples)
-    text += fmt::format("\n[[{}ripple]]\njoint = {}\nrate = {}\ncosine = {}\nsine = {}\n", prefix,
-                        r.joint + 1, toml_number(r.rate), toml_number(r.cosine), toml_number(r.sine));
+    text += fmt::format("\n[[{}ripple]]\njoint = {}\nrate = {}\ncosine = {}\nsine = {}\n", prefix, r.joint,
+                        toml_number(r.rate), toml_number(r.cosine), toml_number(r.sine));
   for (const SharedDrive& f : chain.shared_drives)
     text += fmt::format(
         "\n[[{}shared_drive]]\nalong = {}\nviscous = {}\ncoulomb = {}\nwidth = {}\n"

@@ -29,15 +29,15 @@ void Drives::act(double length_s, JointVector& commanded) {
     commanded[j] = (1.0 + gain_[j]) * commanded[j] + offset_[j] + mean_roughness(j, length_s);
 }
 
-double Drives::mean_roughness(int joint, double length_s) {
-  if (!(roughness_[joint] > 0.0)) return 0.0;
-  const int steps = static_cast<int>(std::ceil(length_s / (kFinestStep * memory_s_[joint])));
-  const double keeps = elementary::exp(-length_s / (steps * memory_s_[joint]));
-  const double stirs = roughness_[joint] * std::sqrt(1.0 - keeps * keeps);
+double Drives::mean_roughness(int j, double length_s) {
+  if (!(roughness_[j] > 0.0)) return 0.0;
+  const int steps = static_cast<int>(std::ceil(length_s / (kFinestStep * memory_s_[j])));
+  const double keeps = elementary::exp(-length_s / (steps * memory_s_[j]));
+  const double stirs = roughness_[j] * std::sqrt(1.0 - keeps * keeps);
   double sum = 0.0;
   for (int k = 0; k < steps; ++k) {
-    sum += rough_[joint];
-    rough_[joint] = keeps * rough_[joint] + stirs * random_.normal();
+    sum += rough_[j];
+    rough_[j] = keeps * rough_[j] + stirs * random_.normal();
   }
   return sum / steps;
 }

@@ -25,7 +25,7 @@ class Drives {
   void act(double length_s, JointVector& commanded);
 
  private:
-  double mean_roughness(int joint, double length_s);
+  double mean_roughness(int j, double length_s);
 
   std::vector<double> gain_, offset_, roughness_, memory_s_;
   std::vector<double> rough_;  ///< random torque at present, N m or N

@@ -17,7 +17,8 @@ void check_beside(int joints, const std::vector<double>& share, const std::vecto
   check_not_negative(joints, beside, key);
   for (std::size_t j = 0; j < share.size(); ++j)
     if (share[j] > 0.0 && (beside.empty() || !(beside[j] > 0.0)))
-      bad_value(key, fmt::format("expected {} above 0 for joint {}, which has a share", what, j + 1));
+      bad_value(key, fmt::format("expected {} above 0 for joint {}, which has a share", what,
+                                 Joint::at(static_cast<int>(j))));
 }
 
 }  // namespace
@@ -47,22 +48,22 @@ void ExtraFriction::set_time(double t) {
     if (cold_[j] > 0.0) still_cold_[j] = cold_[j] * elementary::exp(-t / warm_up_s_[j]);
 }
 
-double ExtraFriction::torque(int joint, double speed, const Friction& now) const {
-  const double cold_coulomb = still_cold_[joint] * healthy_[joint].coulomb;
+double ExtraFriction::torque(int j, double speed, const Friction& now) const {
+  const double cold_coulomb = still_cold_[j] * healthy_[j].coulomb;
   double coulomb = cold_coulomb;
-  if (breakaway_[joint] > 0.0) {
-    const double x = speed / breakaway_speed_[joint];
-    coulomb += breakaway_[joint] * elementary::exp(-x * x) * (now.coulomb + cold_coulomb);
+  if (breakaway_[j] > 0.0) {
+    const double x = speed / breakaway_speed_[j];
+    coulomb += breakaway_[j] * elementary::exp(-x * x) * (now.coulomb + cold_coulomb);
   }
-  return still_cold_[joint] * healthy_[joint].viscous * speed + coulomb * elementary::tanh(speed / now.width);
+  return still_cold_[j] * healthy_[j].viscous * speed + coulomb * elementary::tanh(speed / now.width);
 }
 
-Friction ExtraFriction::worst(int joint, Friction now) const {
-  now.viscous += cold_[joint] * healthy_[joint].viscous;
-  now.coulomb += cold_[joint] * healthy_[joint].coulomb;
-  if (breakaway_[joint] > 0.0) {  // 0.858 is the largest slope of exp(-x^2)
-    now.viscous += 0.858 * breakaway_[joint] * now.coulomb / breakaway_speed_[joint];
-    now.coulomb *= 1.0 + breakaway_[joint];
+Friction ExtraFriction::worst(int j, Friction now) const {
+  now.viscous += cold_[j] * healthy_[j].viscous;
+  now.coulomb += cold_[j] * healthy_[j].coulomb;
+  if (breakaway_[j] > 0.0) {  // 0.858 is the largest slope of exp(-x^2)
+    now.viscous += 0.858 * breakaway_[j] * now.coulomb / breakaway_speed_[j];
+    now.coulomb *= 1.0 + breakaway_[j];
   }
   return now;
 }

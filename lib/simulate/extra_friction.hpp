@@ -35,9 +35,9 @@ class ExtraFriction {
   /// Sets the time into the run at which torque() is evaluated.
   void set_time(double t);
   /// Returns the torque against the motion, N m or N, in addition to the current chain's friction `now`.
-  double torque(int joint, double speed, const Friction& now) const;
+  double torque(int j, double speed, const Friction& now) const;
   /// Returns a friction at least as large and as steep as `now` plus the additional friction at any time.
-  Friction worst(int joint, Friction now) const;
+  Friction worst(int j, Friction now) const;
 
  private:
   std::vector<double> breakaway_, breakaway_speed_, cold_, warm_up_s_;

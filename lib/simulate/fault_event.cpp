@@ -23,8 +23,8 @@ void check_size(const Robot& robot, const SimulatedFault& fault) {
   if (describe(fault.kind).size_count == 1 && fault.size == 0.0)
     bad_value("fault.size", fmt::format("a {} needs a size other than 0", to_string(fault.kind)));
   if (fault.kind != FaultKind::payload_change) return;
-  const int link = fault.joint > 0 ? fault.joint : robot.joints();
-  const double mass = robot.chain.links[static_cast<std::size_t>(link - 1)].mass;
+  const Joint link = fault.joint.is_none() ? Joint::at(robot.joints() - 1) : fault.joint;
+  const double mass = robot.chain.links[static_cast<std::size_t>(link.index())].mass;
   if (mass + fault.size <= 0.0)
     bad_value("fault.size", fmt::format("removes {} kg from link {} of {} kg", -fault.size, link, mass));
 }
@@ -35,8 +35,8 @@ void check_fault(const Robot& robot, const SimulatedFault& fault) {
   if (fault.kind == FaultKind::none) return;
   if (fault.kind == FaultKind::unknown)
     bad_value("fault.kind", "\"unknown\" cannot be simulated; name a kind");
-  const bool is_left_out = describe(fault.kind).place == FaultPlace::link && fault.joint == 0;
-  if (!is_left_out && (fault.joint < 1 || fault.joint > robot.joints()))
+  const bool is_left_out = describe(fault.kind).place == FaultPlace::link && fault.joint == Joint();
+  if (!is_left_out && (fault.joint.is_none() || fault.joint.index() >= robot.joints()))
     bad_value("fault.joint", fmt::format("expected 1 to {}, found {}", robot.joints(), fault.joint));
   if (!(fault.onset_s >= 0.0 && std::isfinite(fault.onset_s)))
     bad_value("fault.onset_s", fmt::format("expected a time that is not negative, found {}", fault.onset_s));
@@ -81,9 +81,9 @@ MachineFault machine_fault(const SimulatedFault& fault) {
 std::string size_unit(const Robot& robot, const SimulatedFault& fault) {
   const std::span<const FaultSize> sizes = describe(fault.kind).sizes();
   if (sizes.empty()) return "";
-  const bool at_joint = fault.joint >= 1 && fault.joint <= robot.joints();
+  const bool at_joint = !fault.joint.is_none() && fault.joint.index() < robot.joints();
   if (!at_joint && describe(fault.kind).place != FaultPlace::link) return "";
-  const bool turns = at_joint && robot.chain.geometry[fault.joint - 1].kind == AxisKind::revolute;
+  const bool turns = at_joint && robot.chain.geometry[fault.joint.index()].kind == AxisKind::revolute;
   return unit_of(sizes.back().measure, turns);
 }
 

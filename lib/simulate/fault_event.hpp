@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "lib/core/joint.hpp"
 #include "lib/fault/fault_kind.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -12,7 +13,7 @@ namespace faultline {
 /// A fault that happens during a simulated run.
 struct SimulatedFault {
   FaultKind kind = FaultKind::none;
-  int joint = 0;         ///< from 1; for a payload_change the link that carries it, 0: the last one
+  Joint joint{};         ///< for a payload_change that of the link that carries it, none: the last one
   double onset_s = 0.0;  ///< the first moment at which it acts; need not be a sample
   double end_s = std::numeric_limits<double>::infinity();  ///< the first moment at which it no longer acts
   /// torque_loss: share lost, 0 to 1. sensor_bias: rad or m. sensor_drift: rad/s or m/s. friction_increase:

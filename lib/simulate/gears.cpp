@@ -13,7 +13,7 @@
 namespace faultline {
 namespace {
 
-double value_of(const std::vector<double>& list, int joint) { return list.empty() ? 0.0 : list[joint]; }
+double value_of(const std::vector<double>& list, int j) { return list.empty() ? 0.0 : list[j]; }
 
 constexpr double kLeastInertia = 1e-9;  // kg m^2 or kg; less counts as none, as it needs too short a step
 
@@ -27,7 +27,7 @@ void check_links(const Chain& chain, const Gears& gears) {
       bad_value(
           "gears.stiffness",
           fmt::format("joint {} has no inertia behind its gear; expected stiffness 0, or a link with inertia",
-                      j + 1));
+                      Joint::at(j)));
 }
 
 }  // namespace
@@ -53,8 +53,9 @@ void check_gears(const Robot& robot, const GearSpec& spec) {
     if (!(value_of(spec.stiffness, j) > 0.0)) {
       const bool plays = value_of(spec.play, j) > 0.0;
       if (plays || value_of(spec.damping, j) > 0.0)
-        bad_value(plays ? "gears.play" : "gears.damping",
-                  fmt::format("the gear of joint {} is rigid; expected 0 here, or a stiffness", j + 1));
+        bad_value(
+            plays ? "gears.play" : "gears.damping",
+            fmt::format("the gear of joint {} is rigid; expected 0 here, or a stiffness", Joint::at(j)));
       continue;
     }
     if (!(value_of(chain.rotor_inertia, j) > 0.0))
@@ -62,11 +63,11 @@ void check_gears(const Robot& robot, const GearSpec& spec) {
           "gears.motor_inertia",
           fmt::format("the gear of joint {0} is a spring; expected the inertia of the motor behind it, here "
                       "or as jr{0} of the robot",
-                      j + 1));
+                      Joint::at(j)));
     for (const SharedDrive& drive : chain.shared_drives)
       if (drive.along[j] != 0.0)
         bad_value("gears.stiffness",
-                  fmt::format("a shared drive turns joint {}; expected 0 for this joint", j + 1));
+                  fmt::format("a shared drive turns joint {}; expected 0 for this joint", Joint::at(j)));
   }
   check_links(chain, Gears(chain, spec));
 }
@@ -80,18 +81,18 @@ Gears::Gears(const Chain& chain, const GearSpec& spec)
     if (stiffness_[j] > 0.0) springs_ |= 1u << j;
 }
 
-double Gears::torque(int joint, double twist, double rate) const {
-  const double half = 0.5 * play_[joint];
+double Gears::torque(int j, double twist, double rate) const {
+  const double half = 0.5 * play_[j];
   const double wound = twist > half ? twist - half : std::min(twist + half, 0.0);
-  const double torque = stiffness_[joint] * wound + damping_[joint] * rate;
+  const double torque = stiffness_[j] * wound + damping_[j] * rate;
   if (!(half > 0.0)) return torque;
   if (wound == 0.0) return 0.0;
   return wound > 0.0 ? std::max(torque, 0.0) : std::min(torque, 0.0);
 }
 
-double Gears::twist_under(int joint, double torque) const {
+double Gears::twist_under(int j, double torque) const {
   if (torque == 0.0) return 0.0;
-  return torque / stiffness_[joint] + std::copysign(0.5 * play_[joint], torque);
+  return torque / stiffness_[j] + std::copysign(0.5 * play_[j], torque);
 }
 
 Chain Gears::link_side(Chain chain) const {
@@ -100,7 +101,7 @@ Chain Gears::link_side(Chain chain) const {
     chain.friction[j] = {};
     chain.rotor_inertia[j] = 0.0;
   }
-  std::erase_if(chain.ripples, [this](const Ripple& ripple) { return has_spring(ripple.joint); });
+  std::erase_if(chain.ripples, [this](const Ripple& ripple) { return has_spring(ripple.joint.index()); });
   return chain;
 }
 

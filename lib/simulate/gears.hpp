@@ -31,15 +31,15 @@ class Gears {
 
   /// Bit j is set if joint j (from 0) has a spring.
   unsigned springs() const { return springs_; }
-  bool has_spring(int joint) const { return springs_ >> joint & 1u; }
-  double motor_inertia(int joint) const { return motor_inertia_[joint]; }
+  bool has_spring(int j) const { return springs_ >> j & 1u; }
+  double motor_inertia(int j) const { return motor_inertia_[j]; }
 
   /// Returns the torque (N m or N) that the gear of a joint with a spring passes to its link if the motor is
   /// ahead of the link by `twist`, which grows at `rate`. A gear with play has neither torque nor damping
   /// within the play, and its flanks push but never pull.
-  double torque(int joint, double twist, double rate) const;
+  double torque(int j, double twist, double rate) const;
   /// Returns the twist at rest under that torque; 0, the middle of the play, without torque.
-  double twist_under(int joint, double torque) const;
+  double twist_under(int j, double torque) const;
 
   /// Returns the chain without friction, rotor inertia and ripple of the joints with springs.
   Chain link_side(Chain chain) const;

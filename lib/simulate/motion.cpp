@@ -33,7 +33,7 @@ JointRanges checked_ranges(const Robot& robot, const MotionSpec& spec) {
   for (int i = 0; i < robot.joints(); ++i)
     if (!(ranges.low[i] <= ranges.high[i]))
       bad_value("motion.low",
-                fmt::format("{} of joint {} is above high, {}", ranges.low[i], i + 1, ranges.high[i]));
+                fmt::format("{} of joint {} is above high, {}", ranges.low[i], Joint::at(i), ranges.high[i]));
   if (!(spec.move_min_s > 0.0 && spec.move_min_s <= spec.move_max_s))
     bad_value("motion.move_s", fmt::format("expected 0 < shortest <= longest, found {} and {}",
                                            spec.move_min_s, spec.move_max_s));

@@ -153,7 +153,7 @@ void Plant::enter(double now) {
   altered_ = false;
   for (const SimulatedFault& fault : faults_) {
     if (now < fault.onset_s || now >= fault.end_s) continue;
-    const int i = fault.joint - 1;
+    const int i = fault.joint.index();
     altered_ = true;
     const MachineFault change = machine_fault(fault);
     gain_[i] *= change.torque_gain;
@@ -219,10 +219,10 @@ void Plant::advance(double from, double to, const JointVector& tau) {
 }
 
 /// Returns the torque of the end stop, which pushes but never pulls.
-double Plant::stop_torque(int joint, double at, double rate) const {
-  const bool high = at > stop_high_[joint];
-  const double beyond = at - (high ? stop_high_[joint] : stop_low_[joint]);
-  const double push = stop_stiffness_[joint] * beyond + stop_damping_[joint] * rate;
+double Plant::stop_torque(int j, double at, double rate) const {
+  const bool high = at > stop_high_[j];
+  const double beyond = at - (high ? stop_high_[j] : stop_low_[j]);
+  const double push = stop_stiffness_[j] * beyond + stop_damping_[j] * rate;
   return high ? std::max(push, 0.0) : std::min(push, 0.0);
 }
 

@@ -75,8 +75,8 @@ class Plant {
   void integrate_geared(double length, const JointVector& tau);
   void accelerate_geared(const Bodies& bodies, const BothSides& at, const BothSides& rate,
                          const JointVector& tau, BothSides& out) const;
-  bool is_beyond_stop(int joint, double at) const { return at > stop_high_[joint] || at < stop_low_[joint]; }
-  double stop_torque(int joint, double at, double rate) const;
+  bool is_beyond_stop(int j, double at) const { return at > stop_high_[j] || at < stop_low_[j]; }
+  double stop_torque(int j, double at, double rate) const;
   unsigned springs() const { return geared_ ? geared_->gears.springs() : 0u; }
 
   Chain healthy_;

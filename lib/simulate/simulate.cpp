@@ -80,7 +80,8 @@ std::vector<SimulatedFault> real_faults(const Robot& robot, const SimulationSpec
   std::vector<SimulatedFault> faults;
   for (SimulatedFault fault : spec.faults) {
     if (fault.kind == FaultKind::none) continue;
-    if (describe(fault.kind).place == FaultPlace::link && fault.joint == 0) fault.joint = robot.joints();
+    if (describe(fault.kind).place == FaultPlace::link && fault.joint.is_none())
+      fault.joint = Joint::at(robot.joints() - 1);
     faults.push_back(fault);
   }
   std::stable_sort(faults.begin(), faults.end(),
@@ -117,7 +118,7 @@ class Sensors {
       double position = true_q[i], speed = true_dq[i];
       bool stuck = false;
       for (const SimulatedFault& fault : faults_) {
-        if (fault.joint != i + 1 || t < fault.onset_s || t >= fault.end_s) continue;
+        if (fault.joint != Joint::at(i) || t < fault.onset_s || t >= fault.end_s) continue;
         const MachineFault change = machine_fault(fault);
         position += change.reading_offset + change.reading_drift_per_s * (t - fault.onset_s);
         stuck = stuck || change.reading_sticks;

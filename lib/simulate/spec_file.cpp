@@ -143,8 +143,8 @@ SimulatedFault read_fault(const TomlTable& table, const Robot& robot) {
   std::vector<std::string> kinds;
   for (int k = 0; k < kFaultKinds; ++k) kinds.emplace_back(to_string(static_cast<FaultKind>(k)));
   fault.kind = fault_kind_from(table.choice("kind", kinds));
-  fault.joint =
-      small_integer(table, "joint", describe(fault.kind).place == FaultPlace::link ? robot.joints() : 0);
+  fault.joint = Joint::numbered(
+      small_integer(table, "joint", describe(fault.kind).place == FaultPlace::link ? robot.joints() : 0));
   fault.onset_s = table.number("onset_s", 0.0);
   if (!table.has("onset_s") && fault.kind != FaultKind::none) table.number("onset_s");
   if (table.has("end_s") && table.has("duration_s"))

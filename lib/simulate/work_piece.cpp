@@ -32,7 +32,7 @@ std::vector<SimulatedFault> carried(const WorkPieceSpec& spec, int joints, doubl
   if (spec.mass == 0.0) return pieces;
   for (double t = random.uniform(spec.empty_min_s, spec.empty_max_s); t < duration_s;
        t += random.uniform(spec.empty_min_s, spec.empty_max_s)) {
-    SimulatedFault piece{FaultKind::payload_change, joints, t, 0.0, spec.mass};
+    SimulatedFault piece{FaultKind::payload_change, Joint::at(joints - 1), t, 0.0, spec.mass};
     piece.end_s = t += random.uniform(spec.carried_min_s, spec.carried_max_s);
     pieces.push_back(piece);
   }

@@ -59,7 +59,7 @@ TEST_F(CasesCommand, ConfirmAndRejectAreStored) {
   const CaseBase base = read_case_base(path_);
   EXPECT_EQ(base.at(1).what_was_done, "new coupling");
   EXPECT_EQ(base.at(2).outcome, CaseOutcome::rejected);
-  EXPECT_EQ(base.at(2).label, (FaultLabel{FaultKind::stuck_encoder, 2}));
+  EXPECT_EQ(base.at(2).label, (FaultLabel{FaultKind::stuck_encoder, 2_joint}));
 }
 
 TEST_F(CasesCommand, AddTakesAFaultFromADiagnosis) {

@@ -18,7 +18,7 @@ std::string write_run(const TemporaryFolder& folder, const std::string& name, st
   spec.motion.move_min_s = spec.motion.move_max_s = 1.3;
   spec.motion.dwell_min_s = spec.motion.dwell_max_s = 0.2;
   if (faulty)
-    spec.faults = {{FaultKind::free_swinging, 1, 2.0, std::numeric_limits<double>::infinity(), 0, 0}};
+    spec.faults = {{FaultKind::free_swinging, 1_joint, 2.0, std::numeric_limits<double>::infinity(), 0, 0}};
   const std::string path = folder.file(name);
   write_log(path, simulate(small_robot(), spec, seed).log);
   return path;

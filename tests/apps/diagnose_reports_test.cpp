@@ -21,7 +21,7 @@ class DiagnoseReports : public ::testing::Test {
     model_ = folder_.write("slide.json", model_to_json(learned.model));
     write_case_base(case_base_path(model_), learned.cases);
     SimulationSpec spec = small_run(7.0);
-    spec.faults = {{FaultKind::locked, 1, 3.004, std::numeric_limits<double>::infinity(), 0.0, 0.0}};
+    spec.faults = {{FaultKind::locked, 1_joint, 3.004, std::numeric_limits<double>::infinity(), 0.0, 0.0}};
     log_ = folder_.file("run.csv");
     write_log(log_, simulate(small_robot(), spec, 31).log);
   }

@@ -138,7 +138,7 @@ TEST_F(ModelCommand, LearningIsRefusedWhereItWouldLoseCases) {
   change_case_base(base_, [](CaseBase& base) {
     base.describe_robot({"gantry", "PPR"});
     Case c;
-    c.decision = c.label = {FaultKind::locked, 3};
+    c.decision = c.label = {FaultKind::locked, 3_joint};
     c.origin = kByHandOrigin;
     base.retain(c);
   });

@@ -51,7 +51,7 @@ UniformLog driven_log(int samples) {
 TEST(OneStep, SlopesComeWithTheAccelerationOfTheLawAlsoWithRipple) {
   MotionBody smooth = planar_arm();
   RigidColumns rigid = smooth.rigid();
-  rigid.chain.ripples = {{.joint = 1, .rate = 12.0, .cosine = 0.5, .sine = 0.3}};
+  rigid.chain.ripples = {{.joint = 2_joint, .rate = 12.0, .cosine = 0.5, .sine = 0.3}};
   for (const MotionBody& body : {smooth, MotionBody(rigid, VectorXd::Constant(2, 0.2))}) {
     const MotionLaw law(body, numbers_of(body));
     const JointVector q = Eigen::Vector2d(0.3, -0.5), dq = Eigen::Vector2d(0.9, -1.1),

@@ -71,7 +71,7 @@ TEST(BalanceRows, TheTrueRobotLeavesNothing) {
 TEST(BalanceRows, TheResidualOfATrajectoryIsThatOfItsColumns) {
   const ClosedFormRun run{.period_s = 0.002};
   RowSetting setting = setting_for(run.period_s);
-  setting.ripples = {{1, 40.0}};
+  setting.ripples = {{2_joint, 40.0}};
   setting.drives = {{Eigen::Vector3d(1.0, 1.0, 0.0), 0.03}};
   const RigidColumns rigid = scara_columns();
   Eigen::VectorXd theta = truth({}, layout_of(rigid, setting));

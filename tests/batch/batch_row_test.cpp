@@ -29,8 +29,8 @@ BatchRow faulty_row() {
   row.severe = 2;
   row.residual_rms = {1.0 / 3.0, kNan, 2.5};
   row.residual_peak = {4.0, kNan, 9.0};
-  row.faults = {{{FaultKind::locked, 2}, 0.5, 0.625, kNan, 0.75},
-                {{FaultKind::unknown, 0}, 4.0, kNan, 5.0, 0.5}};
+  row.faults = {{{FaultKind::locked, 2_joint}, 0.5, 0.625, kNan, 0.75},
+                {{FaultKind::unknown, Joint()}, 4.0, kNan, 5.0, 0.5}};
   row.condition = {{"friction_1", 12.5, 1.5, ""}};
   row.parameters = {{"m1", 2.5, 0.125, ""}, {"fc1", -0.25, kNan, ""}};
   return row;
@@ -46,7 +46,7 @@ TEST(BatchRow, ComesBackFromItsJsonLineAsItWas) {
   EXPECT_EQ(read.log, faulty_row().log);
   EXPECT_EQ(read.result, faulty_row().result);
   EXPECT_EQ(read.end_s, faulty_row().end_s);
-  EXPECT_EQ(read.faults[1].label, (FaultLabel{FaultKind::unknown, 0}));
+  EXPECT_EQ(read.faults[1].label, (FaultLabel{FaultKind::unknown, Joint()}));
   EXPECT_TRUE(std::isnan(read.residual_rms[1]));
   ASSERT_EQ(read.condition.size(), 1u);
   EXPECT_EQ(read.condition[0].name, "friction_1");

@@ -23,7 +23,7 @@ BatchRow row(const std::string& log, const std::string& verdict, double residual
     made.end_s = 1900.0;
     made.residual_rms = {0.5, residual};
   }
-  if (verdict == "faulty") made.faults = {{{FaultKind::locked, 2}, 1.0, 1.1, 2.0, 0.9}};
+  if (verdict == "faulty") made.faults = {{{FaultKind::locked, 2_joint}, 1.0, 1.1, 2.0, 0.9}};
   return made;
 }
 
@@ -31,7 +31,7 @@ std::vector<BatchRow> rows() {
   std::vector<BatchRow> all = {row("a/1.csv", "healthy", 1.0), row("a/2.csv", "faulty", 5.0),
                                row("b/3.csv", "faulty", 3.0), row("b/4.csv", "unusable", 0.0),
                                row("5.csv", "inconclusive", 0.0)};
-  all[2].faults.push_back({{FaultKind::unknown, 0}, 2.0, 2.1, 3.0, 0.5});
+  all[2].faults.push_back({{FaultKind::unknown, Joint()}, 2.0, 2.1, 3.0, 0.5});
   return all;
 }
 
@@ -84,8 +84,8 @@ TEST(BatchSummary, CountsVerdictsFoldersAndKinds) {
   ASSERT_EQ(summary.folders.size(), 3u);
   EXPECT_EQ(summary.folders.at("a").faulty, 1);
   EXPECT_EQ(summary.folders.at("").inconclusive, 1);
-  EXPECT_EQ(summary.kinds.at("locked").at(2), 2);
-  EXPECT_EQ(summary.kinds.at("unknown").at(0), 1);
+  EXPECT_EQ(summary.kinds.at("locked").at(2_joint), 2);
+  EXPECT_EQ(summary.kinds.at("unknown").at(Joint()), 1);
 }
 
 TEST(BatchSummary, TheWorstLogDecidesTheStatus) {

@@ -34,7 +34,7 @@ class BatchWorld {
     SimulationSpec spec = small_run(duration_s);
     if (faulty)
       spec.faults = {
-          {FaultKind::free_swinging, 1, duration_s / 2, std::numeric_limits<double>::infinity(), 0, 0}};
+          {FaultKind::free_swinging, 1_joint, duration_s / 2, std::numeric_limits<double>::infinity(), 0, 0}};
     const std::filesystem::path path = std::filesystem::path(logs()) / name;
     std::filesystem::create_directories(path.parent_path());
     write_log(path.string(), simulate(small_robot(), spec, seed).log);

@@ -21,7 +21,7 @@ JournalEntry entry(const std::string& key, int position) {
   made.row.result = "runs_" + key;
   made.row.verdict = "faulty";
   made.row.residual_rms = {1.0 / 3.0, std::nan("")};
-  made.row.faults = {{{FaultKind::locked, 2}, 0.1, 0.2, std::nan(""), 0.75}};
+  made.row.faults = {{{FaultKind::locked, 2_joint}, 0.1, 0.2, std::nan(""), 0.75}};
   return made;
 }
 

@@ -30,7 +30,8 @@ std::vector<BatchRow> rows(int count) {
       row.parameters = {{"m1", 2.0 + 0.01 * (i % 5), 0.05, "kg"}};
     }
     if (row.verdict == "faulty")
-      row.faults = {{{i % 2 ? FaultKind::locked : FaultKind::torque_loss, 1 + i % 3}, 8.0, 8.2, 20.0, 0.9}};
+      row.faults = {
+          {{i % 2 ? FaultKind::locked : FaultKind::torque_loss, Joint::at(i % 3)}, 8.0, 8.2, 20.0, 0.9}};
     made.push_back(row);
   }
   return made;

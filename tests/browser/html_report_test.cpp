@@ -100,7 +100,7 @@ TEST(HtmlInChromium, HostileNamesAreText) {
       "\xe2\x80\xae\xd7\xa9\xd7\x9c\xd7\x95\xd7\x9d <!-- ${1} &amp; " +
       std::string(10000, 'x');
   d.log.path = d.model.name = d.faults[0].next_check = name;
-  d.faults[0].precedents = {{1, {FaultKind::locked, 1}, 0.5, name}};
+  d.faults[0].precedents = {{1, {FaultKind::locked, 1_joint}, 0.5, name}};
   d.log.issues.add({.code = "odd", .channel = name, .message = name, .count = 1});
   OpenReport report(d);
   report.scroll_through();

@@ -82,7 +82,7 @@ TEST(CaseBase, ContentHashSeesEveryField) {
   };
   EXPECT_TRUE(differs([](Case& c) { c.episode.features[1] += 1e-12; }));
   EXPECT_TRUE(differs([](Case& c) { c.episode.mlp.confidence = 0.1; }));
-  EXPECT_TRUE(differs([](Case& c) { c.episode.rbfn.label.joint = 9; }));
+  EXPECT_TRUE(differs([](Case& c) { c.episode.rbfn.label.joint = 9_joint; }));
   EXPECT_TRUE(differs([](Case& c) { c.episode.evidence = 1; }));
   EXPECT_TRUE(differs([](Case& c) { c.decision = kFree; }));
   EXPECT_TRUE(differs([](Case& c) { c.label = kFree; }));
@@ -184,7 +184,7 @@ TEST(MergeCases, AnotherKindOfRobotIsRefused) {
 
 TEST(MergeCases, AJointThatTheRobotHasNotIsRefused) {
   CaseBase base = base_of("bench", "RRP"), other = base_of("bench 7", "RRP");
-  other.reject(1, FaultLabel{FaultKind::locked, 7});
+  other.reject(1, FaultLabel{FaultKind::locked, 7_joint});
   EXPECT_THROW(base.merge(other), Error);
 }
 

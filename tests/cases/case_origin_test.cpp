@@ -40,7 +40,7 @@ TEST(CaseOrigin, AnotherNameThanWasDecidedIsTold) {
   c.outcome = CaseOutcome::rejected;
   EXPECT_EQ(origin_of(c), CaseOrigin::field) << "a person said what it was";
   EXPECT_EQ(origin_words(c).rfind("corrected in the field by A. Weber", 0), 0u);
-  c.label = {FaultKind::unknown, 0};
+  c.label = {FaultKind::unknown, Joint()};
   EXPECT_EQ(origin_of(c), CaseOrigin::diagnosed) << "nobody knows what it was";
   EXPECT_EQ(origin_words(c).rfind("rejected in the field by A. Weber", 0), 0u);
 }

@@ -20,9 +20,9 @@ inline Case example_case(Random& random, FaultLabel label, double x, double y) {
   return c;
 }
 
-inline constexpr FaultLabel kFree{FaultKind::free_swinging, 1};
-inline constexpr FaultLabel kLocked{FaultKind::locked, 2};
-inline constexpr FaultLabel kBias{FaultKind::sensor_bias, 3};
+inline constexpr FaultLabel kFree{FaultKind::free_swinging, 1_joint};
+inline constexpr FaultLabel kLocked{FaultKind::locked, 2_joint};
+inline constexpr FaultLabel kBias{FaultKind::sensor_bias, 3_joint};
 
 /// `each` confirmed cases of each of the three faults, at (0, 0), (2, 0) and (0, 2), learned.
 inline CaseBase example_base(int each = 20) {

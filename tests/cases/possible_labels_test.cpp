@@ -36,30 +36,30 @@ TEST(PossibleLabels, JointsAreKnownByTheAxes) {
 TEST(PossibleLabels, AModelWithoutHypothesesExcludesNoFaultOfAJointThatIsThere) {
   CaseBase base;
   base.describe_robot({"slide", "P"});
-  EXPECT_EQ(refusal(base, {FaultKind::locked, 1}), "");
-  EXPECT_NE(refusal(base, {FaultKind::locked, 2}).find("has 1 joint"), std::string::npos);
+  EXPECT_EQ(refusal(base, {FaultKind::locked, 1_joint}), "");
+  EXPECT_NE(refusal(base, {FaultKind::locked, 2_joint}).find("has 1 joint"), std::string::npos);
 }
 
 TEST(PossibleLabels, AJointThatTheRobotHasNotIsRefused) {
-  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::locked, 2}), "");
-  EXPECT_NE(refusal(base_of_bank(), {FaultKind::locked, 3}).find("has 2 joints"), std::string::npos);
+  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::locked, 2_joint}), "");
+  EXPECT_NE(refusal(base_of_bank(), {FaultKind::locked, 3_joint}).find("has 2 joints"), std::string::npos);
 }
 
 TEST(PossibleLabels, AJointIsToldWhereTheFaultHasOne) {
-  EXPECT_NE(refusal(base_of_bank(), {FaultKind::locked, 0}).find("give its number"), std::string::npos);
-  EXPECT_NE(refusal(base_of_bank(), {FaultKind::none, 1}).find("no joint"), std::string::npos);
-  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::payload_change, 2}), "");
-  EXPECT_NE(refusal(base_of_bank(), {FaultKind::payload_change, 1}).find("can find"), std::string::npos)
+  EXPECT_NE(refusal(base_of_bank(), {FaultKind::locked, Joint()}).find("give its number"), std::string::npos);
+  EXPECT_NE(refusal(base_of_bank(), {FaultKind::none, 1_joint}).find("no joint"), std::string::npos);
+  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::payload_change, 2_joint}), "");
+  EXPECT_NE(refusal(base_of_bank(), {FaultKind::payload_change, 1_joint}).find("can find"), std::string::npos)
       << "the model of this case base knows no mass on link 1";
-  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::none, 0}), "");
-  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::unknown, 0}), "");
-  EXPECT_EQ(with_tip({FaultKind::payload_change, 0}, 2).joint, 2);
-  EXPECT_EQ(with_tip({FaultKind::locked, 0}, 2).joint, 0);
+  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::none, Joint()}), "");
+  EXPECT_EQ(refusal(base_of_bank(), {FaultKind::unknown, Joint()}), "");
+  EXPECT_EQ(with_tip({FaultKind::payload_change, Joint()}, 2).joint, 2_joint);
+  EXPECT_EQ(with_tip({FaultKind::locked, Joint()}, 2).joint, Joint());
 }
 
 TEST(PossibleLabels, AKindThatNothingLooksForIsRefusedUnlessALogShowedIt) {
   CaseBase base = base_of_bank();
-  const FaultLabel label{FaultKind::torque_sensor_error, 1};
+  const FaultLabel label{FaultKind::torque_sensor_error, 1_joint};
   EXPECT_NE(refusal(base, label).find("torque_sensor_error 1"), std::string::npos);
   Case c;
   c.episode.features.resize(5);

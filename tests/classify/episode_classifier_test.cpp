@@ -13,7 +13,7 @@ namespace faultline {
 namespace {
 
 const std::vector<FaultLabel> kLabels = {
-    {FaultKind::locked, 1}, {FaultKind::locked, 2}, {FaultKind::sensor_bias, 1}};
+    {FaultKind::locked, 1_joint}, {FaultKind::locked, 2_joint}, {FaultKind::sensor_bias, 1_joint}};
 
 /// Each fault has a place of its own in the first two features; the third is noise.
 LabelledEpisode draw_episode(std::size_t which, Random& random) {

@@ -18,7 +18,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// The labels of an RRP robot and a fault that nothing explains yet, from 1 to 1.5 s.
 struct Example {
   UsualMotion model = hand_made_motion(known_rrp());
-  std::vector<FaultLabel> labels = fault_labels(3, {2}, false);
+  std::vector<FaultLabel> labels = fault_labels(3, {3_joint}, false);
   ExplainedFault fault;
 
   /// Explains the fault by `label`.
@@ -58,15 +58,15 @@ TEST(EvidenceByLabel, HasEveryLabelOnce) {
   const auto all = Example().by_label();
   EXPECT_EQ(all.size(), 9u * 3u + 1u) << "nine kinds at three joints, and the payload at the tip";
   for (const LabelEvidence& a : all) {
-    EXPECT_GT(a.label.joint, 0);
+    EXPECT_GT(a.label.joint, Joint());
     EXPECT_LT(a.log_likelihood_ratio, -300.0) << "nothing was judged";
   }
 }
 
 TEST(EvidenceByLabel, SizesAreInUnitsOfTheirScale) {
   Example example;
-  const FaultLabel drift{FaultKind::sensor_drift, 2}, push{FaultKind::collision, 2},
-      friction{FaultKind::friction_increase, 1};
+  const FaultLabel drift{FaultKind::sensor_drift, 2_joint}, push{FaultKind::collision, 2_joint},
+      friction{FaultKind::friction_increase, 1_joint};
   example.of(drift, 50.0, {0.04});
   example.of(push, 40.0, {0.0, -8.0, 0.0, 0.0, 3.0, 0.0}).end_s = 1.1;
   example.of(friction, 30.0, {2.0, 3.0}).grows = true;
@@ -83,15 +83,15 @@ TEST(EpisodeFeatures, HaveANameEach) {
   const auto names = episode_feature_names(example.labels, 3);
   EXPECT_EQ(features(example, rms).size(), names.size());
   for (const std::string& name : names) EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
-  EXPECT_EQ(names.size() - episode_feature_names(fault_labels(3, {2}, true), 3).size(), 12u)
+  EXPECT_EQ(names.size() - episode_feature_names(fault_labels(3, {3_joint}, true), 3).size(), 12u)
       << "behind and size of two kinds at three joints";
 }
 
 TEST(EpisodeFeatures, SayHowFarEachLabelIsBehind) {
   Example example;
   const std::vector<double> rms = {1.0, std::exp(2.0), kNaN};
-  example.of({FaultKind::locked, 1}, 60.0);
-  example.of({FaultKind::locked, 2}, 50.0);
+  example.of({FaultKind::locked, 1_joint}, 60.0);
+  example.of({FaultKind::locked, 2_joint}, 50.0);
   EXPECT_EQ(feature(example, "behind locked 1", rms), 0.0);
   EXPECT_NEAR(feature(example, "behind locked 2", rms), -std::log(11.0), 1e-12);
   EXPECT_NEAR(feature(example, "behind locked 3", rms), -std::log(301.0), 1e-12) << "out of the question";
@@ -104,8 +104,8 @@ TEST(EpisodeFeatures, SayHowFarEachLabelIsBehind) {
 TEST(EpisodeFeatures, SizesFadeWithTheLabelsEvidence) {
   Example example;
   const std::vector<double> rms(3, 1.0);
-  example.of({FaultKind::friction_increase, 1}, 60.0, {2.0, 1.5});
-  example.of({FaultKind::sensor_bias, 1}, 40.0, {0.08});
+  example.of({FaultKind::friction_increase, 1_joint}, 60.0, {2.0, 1.5});
+  example.of({FaultKind::sensor_bias, 1_joint}, 40.0, {0.08});
   EXPECT_NEAR(feature(example, "size friction_increase 1", rms), std::tanh(1.0), 1e-12);
   EXPECT_NEAR(feature(example, "coulomb friction_increase 1", rms), std::tanh(0.5), 1e-12);
   EXPECT_NEAR(feature(example, "size sensor_bias 1", rms), std::exp(-1.0) * std::tanh(1.0), 1e-12);
@@ -113,8 +113,8 @@ TEST(EpisodeFeatures, SizesFadeWithTheLabelsEvidence) {
 
 TEST(EpisodeFeatures, StayFiniteWhateverTheEvidence) {
   Example example;
-  example.of({FaultKind::sensor_bias, 1}, 1e5, {1e9});
-  example.of({FaultKind::sensor_bias, 2}, -std::numeric_limits<double>::infinity(), {1e9});
+  example.of({FaultKind::sensor_bias, 1_joint}, 1e5, {1e9});
+  example.of({FaultKind::sensor_bias, 2_joint}, -std::numeric_limits<double>::infinity(), {1e9});
   const std::vector<double> rms = {0.0, 1e9, kNaN};
   for (const double x : episode_features(example.by_label(), 0.0, residuals_of(rms), 3))
     EXPECT_TRUE(std::isfinite(x));

@@ -15,9 +15,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const OutputMeaning kMeaning{
-    .classes = {{FaultKind::free_swinging, 1}, {FaultKind::free_swinging, 2}, {FaultKind::none, 0}},
-    .prior = {}};
+const OutputMeaning kMeaning{.classes = {{FaultKind::free_swinging, 1_joint},
+                                         {FaultKind::free_swinging, 2_joint},
+                                         {FaultKind::none, Joint()}},
+                             .prior = {}};
 
 /// A letter a sample: 'a', 'b' the faults, '.' none, '?' missing. 0.1 s apart, first at 0.
 LabelledOutputs outputs_of(const std::string& said) {
@@ -55,7 +56,7 @@ TEST(Criterion, ThreeEqualSamplesInARowMakeAnAlarm) {
   EXPECT_TRUE(episodes(kThreeInARow, outputs_of("..aa.aa.bb..aabb..")).empty());
   const auto found = episodes(kThreeInARow, outputs_of("...bbbbb......"));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].label, (FaultLabel{FaultKind::free_swinging, 2}));
+  EXPECT_EQ(found[0].label, (FaultLabel{FaultKind::free_swinging, 2_joint}));
   EXPECT_NEAR(found[0].onset_s, 0.3, 1e-12);
   EXPECT_NEAR(found[0].alarm_s, 0.5, 1e-12);
   EXPECT_NEAR(found[0].end_s, 0.7, 1e-12);
@@ -73,7 +74,7 @@ TEST(Criterion, MissingSamplesBreakARunButNotASum) {
 TEST(Criterion, OddsAccumulateOverInterruptions) {
   const auto found = episodes(kOdds, outputs_of("....aa.aaa.aaa.........."));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].label, (FaultLabel{FaultKind::free_swinging, 1}));
+  EXPECT_EQ(found[0].label, (FaultLabel{FaultKind::free_swinging, 1_joint}));
   EXPECT_NEAR(found[0].onset_s, 0.4, 1e-12);
   EXPECT_NEAR(found[0].end_s, 1.3, 1e-12);
   EXPECT_FALSE(found[0].open);
@@ -91,7 +92,7 @@ TEST(Criterion, AnEpisodeStillOpenAtTheEndIsGiven) {
 TEST(Criterion, TheLabelIsTheMajorityAndConfidenceItsShare) {
   const auto found = episodes(kThreeInARow, outputs_of("..aaabbbbbbb...."));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].label.joint, 2);
+  EXPECT_EQ(found[0].label.joint, 2_joint);
   EXPECT_DOUBLE_EQ(found[0].confidence, 0.7);
 }
 
@@ -135,7 +136,7 @@ LabelledOutputs noisy_run(std::uint64_t seed, bool faulty) {
   }
   LabelledOutputs run = outputs_of(said);
   if (faulty) {
-    run.fault = {FaultKind::free_swinging, 1};
+    run.fault = {FaultKind::free_swinging, 1_joint};
     run.onset_s = 20.0 - 1e-9;
   }
   return run;

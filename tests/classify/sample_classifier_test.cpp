@@ -36,7 +36,7 @@ LabelledResiduals run(int joint, std::uint64_t seed) {
   ResidualState state;
   LabelledResiduals labelled{.residuals = compute_residuals(generator(), log, state), .fault = {}};
   if (joint > 0) {
-    labelled.fault = {FaultKind::free_swinging, joint};
+    labelled.fault = {FaultKind::free_swinging, Joint::numbered(joint)};
     labelled.onset_s = 4.0;
   }
   return labelled;
@@ -57,7 +57,7 @@ const SampleClassifier& trained() {
 TEST(SampleClassifier, HasAnOutputAFaultAndNoneLast) {
   const SampleClassifier& classifier = trained();
   ASSERT_EQ(classifier.classes.size(), 4u);
-  EXPECT_EQ(classifier.classes[1], (FaultLabel{FaultKind::free_swinging, 2}));
+  EXPECT_EQ(classifier.classes[1], (FaultLabel{FaultKind::free_swinging, 2_joint}));
   EXPECT_EQ(classifier.classes.back().kind, FaultKind::none);
   EXPECT_NEAR(classifier.prior.sum(), 1.0, 1e-12);
 }

@@ -99,7 +99,7 @@ TEST(CompareRuns, AFaultIsTheFirstDivergenceAndNothingBeforeIt) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double head : {0.0, 0.25}) {
     SimulationSpec bad = fixed_motion(15.0);
-    bad.faults = {{FaultKind::torque_loss, 1, 7.9, infinity, 0.5, 0}};
+    bad.faults = {{FaultKind::torque_loss, 1_joint, 7.9, infinity, 0.5, 0}};
     const RunComparison c = compared(run_of(fixed_motion(15.0), 1), without_head(run_of(bad, 2), head));
     ASSERT_NE(c.first_divergence(), nullptr) << told(c);
     EXPECT_GE(c.first_divergence()->diverges_s, 7.9 - 0.02) << told(c);
@@ -132,7 +132,7 @@ TEST(CompareRuns, OfDifferentMotionsSayThatTheMotionDiffers) {
 TEST(CompareRuns, ASevereFaultWithoutReferencesIsNoOtherMotion) {
   SimulationSpec good = fixed_motion(15.0), bad = good;
   good.record_reference = bad.record_reference = false;
-  bad.faults = {{FaultKind::free_swinging, 1, 7.9, std::numeric_limits<double>::infinity(), 0, 0}};
+  bad.faults = {{FaultKind::free_swinging, 1_joint, 7.9, std::numeric_limits<double>::infinity(), 0, 0}};
   for (const double head : {0.0, 0.25}) {
     const RunComparison c = compared(run_of(good, 1), without_head(run_of(bad, 2), head));
     EXPECT_TRUE(c.alignment.same_motion) << told(c);
@@ -149,7 +149,7 @@ TEST(CompareRuns, OnlyResidualsOfDifferentMotionsAreJudged) {
   std::mt19937_64 random(4);
   std::normal_distribution<double> noise(0.0, 1.0);
   for (RunSignals* run : {&a, &b}) {
-    RunSignal residual{"residual", 1, a.signals[0].time, {}};
+    RunSignal residual{"residual", 1_joint, a.signals[0].time, {}};
     for (const double t : residual.time)
       residual.values.push_back(noise(random) + (run == &b && t > 7.9 ? 20.0 : 0.0));
     run->signals.push_back(residual);
@@ -173,7 +173,7 @@ TEST(CompareRuns, MovesThatLastDifferentlyAreAlignedByAWarp) {
   const RunComparison bad = compared(timed(20.0, 0.0, 1), timed(20.0, 0.3, 2, 7.9));
   ASSERT_NE(bad.first_divergence(), nullptr);
   EXPECT_NEAR(bad.first_divergence()->diverges_s, 7.9, 0.05) << told(bad);
-  EXPECT_EQ(bad.first_divergence()->joint, 2);
+  EXPECT_EQ(bad.first_divergence()->joint, 2_joint);
 }
 
 TEST(CompareRuns, OneOutlierIsNoDivergence) {

@@ -33,8 +33,8 @@ TEST(CsvCell, NumbersKeepEveryBitAndNoNumberIsEmpty) {
   EXPECT_EQ(csv_cell(0.1), "0.1");
   EXPECT_EQ(csv_cell(1.0 / 3.0), "0.3333333333333333");
   EXPECT_EQ(csv_cell(std::numeric_limits<double>::infinity()), "");
-  EXPECT_EQ(csv_joint(2), "2");
-  EXPECT_EQ(csv_joint(0), "");
+  EXPECT_EQ(csv_joint(2_joint), "2");
+  EXPECT_EQ(csv_joint(Joint()), "");
 }
 
 }  // namespace

@@ -8,15 +8,15 @@
 namespace faultline {
 namespace {
 
-DayEffect estimate(DayEffectKind kind, int joint, double day_std, double value, double std) {
+DayEffect estimate(DayEffectKind kind, Joint joint, double day_std, double value, double std) {
   return {kind, joint, value, std, day_std};
 }
 
 TEST(Condition, SharesAreInPercentAndTorquesInTheUnitOfTheJoint) {
   const std::vector<ConditionItem> items =
-      condition_of({estimate(DayEffectKind::friction, 1, 0.15, 0.12, 0.01),
-                    estimate(DayEffectKind::torque_offset, 2, 0.5, -0.2, 0.1),
-                    estimate(DayEffectKind::torque_offset, 3, 0.5, 0.3, 0.1)},
+      condition_of({estimate(DayEffectKind::friction, 1_joint, 0.15, 0.12, 0.01),
+                    estimate(DayEffectKind::torque_offset, 2_joint, 0.5, -0.2, 0.1),
+                    estimate(DayEffectKind::torque_offset, 3_joint, 0.5, 0.3, 0.1)},
                    preset_robot("RRP").chain);
   ASSERT_EQ(items.size(), 3u);
   EXPECT_EQ(items[0].name, "friction_1");
@@ -30,9 +30,9 @@ TEST(Condition, SharesAreInPercentAndTorquesInTheUnitOfTheJoint) {
 }
 
 TEST(Condition, BeyondIsTheWholeIntervalOutsideTheNormalRange) {
-  const auto items = condition_of({estimate(DayEffectKind::friction, 1, 0.15, 0.52, 0.01),
-                                   estimate(DayEffectKind::friction, 2, 0.15, 0.35, 0.1),
-                                   estimate(DayEffectKind::torque_gain, 1, 0.01, -0.05, 0.01)},
+  const auto items = condition_of({estimate(DayEffectKind::friction, 1_joint, 0.15, 0.52, 0.01),
+                                   estimate(DayEffectKind::friction, 2_joint, 0.15, 0.35, 0.1),
+                                   estimate(DayEffectKind::torque_gain, 1_joint, 0.01, -0.05, 0.01)},
                                   preset_robot("RRP").chain);
   EXPECT_TRUE(items[0].is_beyond());
   EXPECT_FALSE(items[1].is_beyond());
@@ -44,8 +44,8 @@ TEST(Condition, BeyondIsTheWholeIntervalOutsideTheNormalRange) {
 }
 
 TEST(Condition, IsToldWhereTheLogSaysMoreThanTheNormalRange) {
-  const auto items = condition_of({estimate(DayEffectKind::friction, 1, 0.15, 0.0, 0.14),
-                                   estimate(DayEffectKind::friction, 2, 0.15, 0.0, 0.16)},
+  const auto items = condition_of({estimate(DayEffectKind::friction, 1_joint, 0.15, 0.0, 0.14),
+                                   estimate(DayEffectKind::friction, 2_joint, 0.15, 0.0, 0.16)},
                                   preset_robot("RRP").chain);
   EXPECT_TRUE(items[0].is_determined());
   EXPECT_FALSE(items[1].is_determined());

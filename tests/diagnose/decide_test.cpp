@@ -77,8 +77,8 @@ TEST(Decide, AFaultThatTheLogExcludesGivesWayToTheLikeliest) {
 }
 
 TEST(Decide, WhereEveryKnownFaultLeavesMoreThanNoiseTheFaultIsUnknown) {
-  const Decision decision = decided_with({FaultKind::unknown, 2}, {kLocked});
-  EXPECT_EQ(decision.label, (FaultLabel{FaultKind::unknown, 0}));
+  const Decision decision = decided_with({FaultKind::unknown, 2_joint}, {kLocked});
+  EXPECT_EQ(decision.label, (FaultLabel{FaultKind::unknown, Joint()}));
   EXPECT_EQ(decision.reason, DecisionReason::no_known_form);
   EXPECT_GT(decision.confidence, 0.5);
 }

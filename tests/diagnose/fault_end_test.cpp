@@ -31,7 +31,7 @@ Learned* FaultEnd::learned_ = nullptr;
 
 TEST_F(FaultEnd, AShortCollisionEndsWhenItIsOver) {
   for (const double duration_s : {0.05, 0.15}) {
-    const auto faults = found({{FaultKind::collision, 1, 5.0, 5.0 + duration_s, 40.0, 0.0}});
+    const auto faults = found({{FaultKind::collision, 1_joint, 5.0, 5.0 + duration_s, 40.0, 0.0}});
     ASSERT_EQ(faults.size(), 1u) << duration_s;
     EXPECT_NEAR(faults[0].end_s, 5.0 + duration_s, kLate_s) << duration_s;
   }
@@ -39,7 +39,7 @@ TEST_F(FaultEnd, AShortCollisionEndsWhenItIsOver) {
 
 TEST_F(FaultEnd, WhatLastsEndsWithTheLog) {
   for (const auto& [kind, size] : {std::pair{FaultKind::sensor_bias, 0.02}, {FaultKind::torque_loss, 0.5}}) {
-    const auto faults = found({{kind, 1, 5.0, kForEver, size, 0.0}});
+    const auto faults = found({{kind, 1_joint, 5.0, kForEver, size, 0.0}});
     ASSERT_EQ(faults.size(), 1u) << to_string(kind);
     EXPECT_NEAR(faults[0].end_s, kRun_s, kLate_s) << to_string(kind);
   }

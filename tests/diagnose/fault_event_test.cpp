@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 FaultEvent from_text(const std::string& text) { return fields_from_json<FaultEvent>(Json::parse(text), ""); }
 
 TEST(FaultEvent, ComesBackFromItsJsonAsItWas) {
-  const FaultEvent event{{FaultKind::locked, 2}, 0.1 + 0.2, 1763710000.073, NAN, 0.75};
+  const FaultEvent event{{FaultKind::locked, 2_joint}, 0.1 + 0.2, 1763710000.073, NAN, 0.75};
   const FaultEvent read = from_text(fields_to_json<Json>(event).dump());
   EXPECT_EQ(read.label, event.label);
   EXPECT_EQ(read.onset_s, event.onset_s);
@@ -26,7 +26,7 @@ TEST(FaultEvent, ComesBackFromItsJsonAsItWas) {
 }
 
 TEST(FaultEvent, OfALogWithRunsKeepsItsRunAndSaysTheTimeOnThatRunsClock) {
-  const FaultEvent event{{FaultKind::locked, 2}, 12.5, 12.6, 14.0, 0.75, 2, 10.25};
+  const FaultEvent event{{FaultKind::locked, 2_joint}, 12.5, 12.6, 14.0, 0.75, 2, 10.25};
   const FaultEvent read = from_text(fields_to_json<Json>(event).dump());
   EXPECT_EQ(read.run, 2);
   EXPECT_EQ(read.clock_offset_s, 10.25);
@@ -38,14 +38,14 @@ TEST(FaultEvent, OfALogWithRunsKeepsItsRunAndSaysTheTimeOnThatRunsClock) {
 }
 
 TEST(FaultEvent, OfNoJointHasNullForIt) {
-  const Json json = fields_to_json<Json>(FaultEvent{{FaultKind::unknown, 0}, 1.0, 1.5, INFINITY, 0.5});
+  const Json json = fields_to_json<Json>(FaultEvent{{FaultKind::unknown, Joint()}, 1.0, 1.5, INFINITY, 0.5});
   EXPECT_EQ(json.dump(),
             R"({"kind":"unknown","joint":null,"onset_s":1.0,"alarm_s":1.5,"end_s":null,"confidence":0.5})");
-  EXPECT_EQ(fields_from_json<FaultEvent>(json, "").label.joint, 0);
+  EXPECT_EQ(fields_from_json<FaultEvent>(json, "").label.joint, Joint());
 }
 
 TEST(FaultEvent, IncompleteOrUnknownIsRefused) {
-  Json json = fields_to_json<Json>(FaultEvent{{FaultKind::locked, 1}, 1.0, 1.0, 2.0, 0.9});
+  Json json = fields_to_json<Json>(FaultEvent{{FaultKind::locked, 1_joint}, 1.0, 1.0, 2.0, 0.9});
   json["kind"] = "loked";
   EXPECT_THROW(fields_from_json<FaultEvent>(json, ""), Error);
   json.erase("kind");
@@ -54,7 +54,7 @@ TEST(FaultEvent, IncompleteOrUnknownIsRefused) {
 
 TEST(FaultEvent, OfAFindingHasItsLabelTimesAndConfidence) {
   FaultFinding finding;
-  finding.label = {FaultKind::locked, 2};
+  finding.label = {FaultKind::locked, 2_joint};
   finding.onset_s = 3.0;
   finding.confidence = 0.9;
   const FaultEvent event = event_of(finding);

@@ -45,29 +45,30 @@ FaultFinding pushed(const Eigen::Vector3d& torque) {
 TEST(PushOnAllJoints, ListsTheJointsItReachedByTheirUsualTorque) {
   const FaultFinding first = pushed({20.0, 6.0, -5.0});  // largest torques 20, 10, 40
   EXPECT_EQ(first.label, kPush1);
-  EXPECT_NE(alternative(first, {FaultKind::collision, 2}), nullptr);
-  EXPECT_EQ(alternative(first, {FaultKind::collision, 3}), nullptr) << "an eighth of its largest torque";
+  EXPECT_NE(alternative(first, {FaultKind::collision, 2_joint}), nullptr);
+  EXPECT_EQ(alternative(first, {FaultKind::collision, 3_joint}), nullptr)
+      << "an eighth of its largest torque";
   const FaultFinding second = pushed({20.0, 1.5, 10.0});
-  EXPECT_EQ(alternative(second, {FaultKind::collision, 2}), nullptr);
-  EXPECT_NE(alternative(second, {FaultKind::collision, 3}), nullptr);
+  EXPECT_EQ(alternative(second, {FaultKind::collision, 2_joint}), nullptr);
+  EXPECT_NE(alternative(second, {FaultKind::collision, 3_joint}), nullptr);
 }
 
 TEST(SizeText, SaysHowLargeEachKindIsWithItsUnit) {
-  EXPECT_EQ(size_text({FaultKind::torque_loss, 2}, 0.436), "about 44 % of the torque is lost");
-  EXPECT_EQ(size_text({FaultKind::sensor_bias, 1}, 0.0321), "the position reads 0.0321 rad too much");
-  EXPECT_EQ(size_text({FaultKind::sensor_bias, 3}, -0.0021), "the position reads 0.0021 m too little");
-  EXPECT_EQ(size_text({FaultKind::sensor_drift, 2}, -0.05), "the position drifts by -0.05 rad/s");
-  EXPECT_EQ(size_text({FaultKind::friction_increase, 1}, 2.0, 3.5),
+  EXPECT_EQ(size_text({FaultKind::torque_loss, 2_joint}, 0.436), "about 44 % of the torque is lost");
+  EXPECT_EQ(size_text({FaultKind::sensor_bias, 1_joint}, 0.0321), "the position reads 0.0321 rad too much");
+  EXPECT_EQ(size_text({FaultKind::sensor_bias, 3_joint}, -0.0021), "the position reads 0.0021 m too little");
+  EXPECT_EQ(size_text({FaultKind::sensor_drift, 2_joint}, -0.05), "the position drifts by -0.05 rad/s");
+  EXPECT_EQ(size_text({FaultKind::friction_increase, 1_joint}, 2.0, 3.5),
             "dry friction changed by +3.5 N m, viscous friction by +2 N m s/rad");
-  EXPECT_EQ(size_text({FaultKind::friction_increase, 3}, 20.0, 8.0),
+  EXPECT_EQ(size_text({FaultKind::friction_increase, 3_joint}, 20.0, 8.0),
             "dry friction changed by +8 N, viscous friction by +20 N s/m");
-  EXPECT_EQ(size_text({FaultKind::payload_change, 3}, 0.75),
+  EXPECT_EQ(size_text({FaultKind::payload_change, 3_joint}, 0.75),
             "the load at the end of link 3 changed by +0.75 kg");
   EXPECT_EQ(size_text(kLocked2, 0.0), "") << "a lock has no size";
 }
 
 TEST(SizeText, OfAFaultThatGrowsIsWhatItHasGrownTo) {
-  const FaultLabel friction{FaultKind::friction_increase, 1};
+  const FaultLabel friction{FaultKind::friction_increase, 1_joint};
   MonitoredEpisode episode = episode_of_fault(friction, 100.0, 1.0, 2.0);
   episode.fault.scores.front().claim.grows = true;
   EXPECT_EQ(item(decided(agreed_on(friction), episode), "size")->text,
@@ -103,7 +104,7 @@ TEST(EpisodeFacts, KeepTheFeaturesUnderTheNamesOfTheCaseBase) {
 
 TEST(LastingFriction, IsFrictionWhoseWholeIntervalIsBeyondTwiceTheNormalRange) {
   const auto friction = [](double value, double std) {
-    return lasting_friction({{DayEffectKind::friction, 2, value, std, 0.1}}).size();
+    return lasting_friction({{DayEffectKind::friction, 2_joint, value, std, 0.1}}).size();
   };
   EXPECT_EQ(friction(0.5, 0.01), 1u) << "the normal range is 20 %";
   EXPECT_EQ(friction(0.5, 0.2), 0u) << "the log hardly determines it";
@@ -112,7 +113,7 @@ TEST(LastingFriction, IsFrictionWhoseWholeIntervalIsBeyondTwiceTheNormalRange) {
 }
 
 TEST(LastingFriction, OtherEffectsTakeOverFromEachOtherAndAreNone) {
-  EXPECT_TRUE(lasting_friction({{DayEffectKind::torque_gain, 1, 5.0, 0.01, 0.1}}).empty());
+  EXPECT_TRUE(lasting_friction({{DayEffectKind::torque_gain, 1_joint, 5.0, 0.01, 0.1}}).empty());
 }
 
 }  // namespace

@@ -10,16 +10,17 @@
 
 namespace faultline {
 
-inline constexpr FaultLabel kLocked2{FaultKind::locked, 2}, kStuck2{FaultKind::stuck_encoder, 2},
-    kBias3{FaultKind::sensor_bias, 3}, kDrift1{FaultKind::sensor_drift, 1}, kPush1{FaultKind::collision, 1},
-    kLoss1{FaultKind::torque_loss, 1}, kFree1{FaultKind::free_swinging, 1}, kUnknown{FaultKind::unknown, 0};
+inline constexpr FaultLabel kLocked2{FaultKind::locked, 2_joint}, kStuck2{FaultKind::stuck_encoder, 2_joint},
+    kBias3{FaultKind::sensor_bias, 3_joint}, kDrift1{FaultKind::sensor_drift, 1_joint},
+    kPush1{FaultKind::collision, 1_joint}, kLoss1{FaultKind::torque_loss, 1_joint},
+    kFree1{FaultKind::free_swinging, 1_joint}, kUnknown{FaultKind::unknown, Joint()};
 
 /// Two networks that give the same opinion whatever they are shown.
 inline EpisodeClassifier classifier_that_says(const Opinion& mlp, const Opinion& rbfn, int features) {
   EpisodeClassifier classifier;
   classifier.labels = {mlp.label};
   if (rbfn.label != mlp.label) classifier.labels.push_back(rbfn.label);
-  classifier.labels.push_back({FaultKind::none, 0});
+  classifier.labels.push_back({FaultKind::none, Joint()});
   const auto count = static_cast<Eigen::Index>(classifier.labels.size());
   const auto shares = [&](Eigen::Index who, double confidence) {
     Eigen::VectorXd p = Eigen::VectorXd::Constant(count, (1.0 - confidence) / static_cast<double>(count - 1));
@@ -41,7 +42,7 @@ inline Model hand_made_rrp() {
   Model model;
   model.robot = known_rrp();
   model.motion = hand_made_motion(model.robot);
-  model.labels = fault_labels(3, {2}, false);
+  model.labels = fault_labels(3, {3_joint}, false);
   return model;
 }
 
@@ -95,7 +96,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 inline std::vector<JointResidual> residuals_of(const std::vector<double>& velocity_rms) {
   std::vector<JointResidual> residuals(velocity_rms.size());
   for (std::size_t j = 0; j < velocity_rms.size(); ++j) {
-    residuals[j].joint = static_cast<int>(j) + 1;
+    residuals[j].joint = Joint::at(static_cast<int>(j));
     residuals[j].velocity_rms = velocity_rms[j];
   }
   return residuals;

@@ -146,17 +146,17 @@ TEST_F(ImperfectLogs, ARecorderThatStopsWithTheFaultLeavesNoHealthyLog) {
 }
 
 TEST_F(ImperfectLogs, AnEncoderThatIsSilentToTheEndIsNoHealthyLog) {
-  for (int joint = 0; joint < 3; ++joint) {
+  for (int j = 0; j < 3; ++j) {
     Log log = read("healthy_trapezoidal.csv");
-    blank_from(log.q[joint], log, 6.0);
-    blank_from(log.dq[joint], log, 6.0);
+    blank_from(log.q[j], log, 6.0);
+    blank_from(log.dq[j], log, 6.0);
     const Diagnosis found = diagnosed(log);
     EXPECT_EQ(found.verdict, Verdict::inconclusive) << found.verdict_reason;
-    EXPECT_NE(found.verdict_reason.find(fmt::format("joint {} could not be judged", joint + 1)),
+    EXPECT_NE(found.verdict_reason.find(fmt::format("joint {} could not be judged", Joint::at(j))),
               std::string::npos)
         << found.verdict_reason;
     ASSERT_EQ(found.log.unjudged.size(), 1u);
-    EXPECT_EQ(found.log.unjudged[0].joint, joint + 1);
+    EXPECT_EQ(found.log.unjudged[0].joint, Joint::at(j));
   }
 }
 

@@ -22,12 +22,12 @@ Model slide(const std::string& more = "") {
   model.motion.q_low = {0.0};
   model.motion.q_high = {0.5};
   model.motion.torque_scale = {10.0};
-  model.labels = fault_labels(1, {0}, false);
+  model.labels = fault_labels(1, {1_joint}, false);
   return model;
 }
 
 FaultExtent of_payload(double kg, const Model& model) {
-  const FaultLabel label{FaultKind::payload_change, 1};
+  const FaultLabel label{FaultKind::payload_change, 1_joint};
   return extent_of(label, {{label, 50.0, {kg / model.motion.sizes.payload, 0.0}}}, model);
 }
 
@@ -64,7 +64,7 @@ TEST(LeastSize, IsSaidOfEachKindAndJoint) {
 }
 
 TEST(LeastSize, AKindWithoutASizeHasNone) {
-  const FaultLabel locked{FaultKind::locked, 1};
+  const FaultLabel locked{FaultKind::locked, 1_joint};
   EXPECT_TRUE(std::isnan(extent_of(locked, {{locked, 50.0}}, slide()).times_least));
 }
 

@@ -29,7 +29,7 @@ Log slide_at(double period_s, FaultKind kind = FaultKind::none, std::uint64_t se
   SimulationSpec spec = small_run(7.0);
   spec.sample_period_s = spec.control_period_s = period_s;
   if (kind != FaultKind::none)
-    spec.faults = {{kind, 1, kOnset_s, std::numeric_limits<double>::infinity(), 0.8, 0.0}};
+    spec.faults = {{kind, 1_joint, kOnset_s, std::numeric_limits<double>::infinity(), 0.8, 0.0}};
   return simulate(small_robot(), spec, seed).log;
 }
 

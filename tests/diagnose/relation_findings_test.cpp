@@ -15,10 +15,10 @@ Model model() {
   return out;
 }
 
-RelationEpisode episode(RelationKind kind, int joint, double onset_s, double end_s) {
+RelationEpisode episode(RelationKind kind, Joint joint, double onset_s, double end_s) {
   RelationEpisode out;
   out.kind = kind;
-  out.joint = joint - 1;
+  out.joint = joint;
   out.onset_s = onset_s;
   out.alarm_s = onset_s + 0.02;
   out.end_s = end_s;
@@ -42,13 +42,13 @@ const EvidenceItem* item(const FaultFinding& finding, const std::string& name) {
 }
 
 TEST(RelationFindings, AnEpisodeIsAStretchWithItsLimit) {
-  RelationEpisode lasts = episode(RelationKind::control_law, 2, 4.0, 9.0);
+  RelationEpisode lasts = episode(RelationKind::control_law, 2_joint, 4.0, 9.0);
   lasts.lasts = true;
   const std::vector<SignalStretch> all =
-      stretches_of({episode(RelationKind::actuator, 1, 3.0, 3.2), lasts}, TorqueMeaning::measured);
+      stretches_of({episode(RelationKind::actuator, 1_joint, 3.0, 3.2), lasts}, TorqueMeaning::measured);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].pair, SignalPair::drive);
-  EXPECT_EQ(all[0].joint, 1);
+  EXPECT_EQ(all[0].joint, 1_joint);
   EXPECT_EQ(all[0].end_s, 3.2);
   EXPECT_DOUBLE_EQ(all[0].limit, 20.0);
   EXPECT_FALSE(all[0].balance_is_of_command);
@@ -58,22 +58,22 @@ TEST(RelationFindings, AnEpisodeIsAStretchWithItsLimit) {
 }
 
 TEST(RelationFindings, ALossIsSaidWithItsShareAndALawWithWhereToLook) {
-  RelationEpisode lost = episode(RelationKind::actuator, 1, 3.0, 9.0);
+  RelationEpisode lost = episode(RelationKind::actuator, 1_joint, 3.0, 9.0);
   lost.share = 0.4;
   lost.share_explains = 0.9;
-  const auto faults = findings_of({lost, episode(RelationKind::control_law, 2, 4.0, 9.0)});
+  const auto faults = findings_of({lost, episode(RelationKind::control_law, 2_joint, 4.0, 9.0)});
   ASSERT_EQ(faults.size(), 2u);
-  EXPECT_EQ(faults[0].label, (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_EQ(faults[0].label, (FaultLabel{FaultKind::torque_loss, 1_joint}));
   EXPECT_DOUBLE_EQ(faults[0].extent.size, 0.4);
   ASSERT_NE(item(faults[0], "torque_share"), nullptr);
   EXPECT_DOUBLE_EQ(item(faults[0], "torque_share")->value, 40.0);
-  EXPECT_EQ(faults[1].label, (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_EQ(faults[1].label, (FaultLabel{FaultKind::unknown, 2_joint}));
   EXPECT_EQ(faults[1].decided_by, DecidedBy::control_law);
   EXPECT_NE(faults[1].next_check.find("the controller of joint 2"), std::string::npos);
 }
 
 TEST(RelationFindings, TheTorqueBalancesPartOfTheEvidenceIsSaid) {
-  const RelationEpisode largest_mean = episode(RelationKind::actuator, 1, 3.0, 3.2);
+  const RelationEpisode largest_mean = episode(RelationKind::actuator, 1_joint, 3.0, 3.2);
   JudgedStretch fault = judge_stretch(stretches_of({largest_mean}, TorqueMeaning::commanded)[0], nullptr);
   EXPECT_EQ(item(finding_of(largest_mean, fault, 9.0, model()), "motion"), nullptr);
   fault.in_balance = 75.0;
@@ -86,22 +86,22 @@ TEST(RelationFindings, TheTorqueBalancesPartOfTheEvidenceIsSaid) {
 }
 
 TEST(RelationFindings, AJoltOfAnotherDriveMeanwhileFollowsFromIt) {
-  const auto faults = findings_of(
-      {episode(RelationKind::actuator, 1, 4.0, 4.5), episode(RelationKind::actuator, 2, 4.45, 4.5)});
+  const auto faults = findings_of({episode(RelationKind::actuator, 1_joint, 4.0, 4.5),
+                                   episode(RelationKind::actuator, 2_joint, 4.45, 4.5)});
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].label.joint, 1);
+  EXPECT_EQ(faults[0].label.joint, 1_joint);
 }
 
 TEST(RelationFindings, TwoDrivesThatStrayAtTheSameTimeAreTwoFindings) {
-  EXPECT_EQ(findings_of(
-                {episode(RelationKind::actuator, 1, 4.0, 4.5), episode(RelationKind::actuator, 2, 4.1, 4.6)})
+  EXPECT_EQ(findings_of({episode(RelationKind::actuator, 1_joint, 4.0, 4.5),
+                         episode(RelationKind::actuator, 2_joint, 4.1, 4.6)})
                 .size(),
             2u);
 }
 
 TEST(RelationFindings, PulsesInQuickSuccessionStaySingle) {
-  auto faults = findings_of(
-      {episode(RelationKind::actuator, 1, 3.0, 3.2), episode(RelationKind::actuator, 1, 3.6, 3.8)});
+  auto faults = findings_of({episode(RelationKind::actuator, 1_joint, 3.0, 3.2),
+                             episode(RelationKind::actuator, 1_joint, 3.6, 3.8)});
   EXPECT_EQ(merge_continued(std::move(faults)).size(), 2u);
 }
 

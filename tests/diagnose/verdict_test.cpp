@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/diagnose/verdict.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "lib/core/issue.hpp"
@@ -20,7 +21,7 @@ Diagnosis of_log(std::int64_t rows, std::int64_t judgeable_rows, double period_s
   return diagnosis;
 }
 
-FaultFinding fault(FaultKind kind, int joint, double onset_s, double end_s = 9.0) {
+FaultFinding fault(FaultKind kind, Joint joint, double onset_s, double end_s = 9.0) {
   FaultFinding finding;
   finding.label = {kind, joint};
   finding.onset_s = onset_s;
@@ -29,9 +30,9 @@ FaultFinding fault(FaultKind kind, int joint, double onset_s, double end_s = 9.0
 }
 
 /// In %, normal within 30.
-ConditionItem friction_of(int joint, double value, const std::array<double, 2>& ci95) {
+ConditionItem friction_of(Joint joint, double value, const std::array<double, 2>& ci95) {
   ConditionItem friction;
-  friction.what = "friction of joint " + std::to_string(joint);
+  friction.what = fmt::format("friction of joint {}", joint);
   friction.value = value;
   friction.ci95 = ci95;
   friction.normal_range = 30.0;
@@ -43,8 +44,8 @@ TEST(Verdict, FaultsAreNumberedByOnsetWithUnknownTimesLast) {
   Diagnosis diagnosis = of_log(1000, 1000);
   const double nowhen = std::numeric_limits<double>::quiet_NaN();
   diagnosis = with_verdict(diagnosis,
-                           {fault(FaultKind::locked, 1, nowhen), fault(FaultKind::locked, 2, 2.0),
-                            fault(FaultKind::locked, 3, 1.0)},
+                           {fault(FaultKind::locked, 1_joint, nowhen), fault(FaultKind::locked, 2_joint, 2.0),
+                            fault(FaultKind::locked, 3_joint, 1.0)},
                            kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
   EXPECT_EQ(diagnosis.verdict_reason, "3 faults found");
@@ -61,12 +62,12 @@ TEST(Verdict, AModelWithAGraveDoubtCallsNoLogHealthyButItsFindingsCount) {
   calm = with_verdict(calm, {}, kPeriod_s);
   EXPECT_EQ(calm.verdict, Verdict::inconclusive);
   EXPECT_NE(calm.verdict_reason.find("the robot does not explain the logs"), std::string::npos);
-  faulty = with_verdict(faulty, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
+  faulty = with_verdict(faulty, {fault(FaultKind::locked, 1_joint, 1.0)}, kPeriod_s);
   EXPECT_EQ(faulty.verdict, Verdict::faulty);
 }
 
 FaultFinding sized(double times_least, double onset_s = 1.0) {
-  FaultFinding finding = fault(FaultKind::payload_change, 3, onset_s);
+  FaultFinding finding = fault(FaultKind::payload_change, 3_joint, onset_s);
   finding.extent = {0.05 * times_least, 0.05, "kg", times_least};
   return finding;
 }
@@ -104,7 +105,7 @@ TEST(Verdict, WithoutFaultsTheLogIsHealthy) {
 
 TEST(Verdict, ARobotFarBeyondItsNormalRangeIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
-  diagnosis.condition = {friction_of(3, 113.0, {99.0, 128.0})};
+  diagnosis.condition = {friction_of(3_joint, 113.0, {99.0, 128.0})};
   diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_NE(diagnosis.verdict_reason.find("friction of joint 3 (+113 %"), std::string::npos);
@@ -112,14 +113,14 @@ TEST(Verdict, ARobotFarBeyondItsNormalRangeIsNotCalledHealthy) {
 
 TEST(Verdict, WhatIsBeyondItsNormalRangeIsSaidWithIt) {
   Diagnosis diagnosis = of_log(1000, 1000);
-  diagnosis.condition = {friction_of(1, 50.0, {45.0, 55.0})};
+  diagnosis.condition = {friction_of(1_joint, 50.0, {45.0, 55.0})};
   diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_NE(diagnosis.verdict_reason.find("beyond its normal range: friction of joint 1 (+50 %"),
             std::string::npos);
 }
 
 TEST(Verdict, ALogThatCannotBeJudgedHasNoFaults) {
-  const std::vector<FaultFinding> faults = {fault(FaultKind::locked, 1, 1.0)};
+  const std::vector<FaultFinding> faults = {fault(FaultKind::locked, 1_joint, 1.0)};
   for (Diagnosis diagnosis : {of_log(1000, 1000, 1.4 * kPeriod_s), of_log(1000, 1000, kPeriod_s / 1.4),
                               of_log(19, 19), of_log(1000, 199)}) {
     diagnosis.condition.resize(1);
@@ -134,7 +135,7 @@ TEST(Verdict, ALogThatCannotBeJudgedHasNoFaults) {
 TEST(Verdict, ALogThatIsMisreadHasNoFaultAndSaysWhy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.log.issues.add(make_issue(kMisreadLog, Severity::severe, "it looks as if q2 is in degrees"));
-  diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1_joint, 1.0)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_EQ(diagnosis.verdict_reason, "it looks as if q2 is in degrees");
   EXPECT_TRUE(diagnosis.faults.empty());
@@ -144,7 +145,7 @@ TEST(Verdict, ALogWhoseColumnsChangeHasNoFaultAndNamesTheRow) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.log.issues.add(
       make_issue(kChangedColumns, Severity::severe, "row 301: joints 1 and 2 are swapped"));
-  diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1, 1.0)}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1_joint, 1.0)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_EQ(diagnosis.verdict_reason, "row 301: joints 1 and 2 are swapped");
   EXPECT_TRUE(diagnosis.faults.empty());
@@ -155,7 +156,7 @@ TEST(Verdict, AScaledClockForbidsANamedFaultAndNoHealthyVerdict) {
     Diagnosis diagnosis = of_log(1000, 1000);
     diagnosis.log.issues.add(make_issue(kScaledMotion, Severity::warning, "the clock is scaled"));
     std::vector<FaultFinding> faults;
-    if (with_fault) faults.push_back(fault(FaultKind::sensor_drift, 1, 1.0));
+    if (with_fault) faults.push_back(fault(FaultKind::sensor_drift, 1_joint, 1.0));
     diagnosis = with_verdict(diagnosis, faults, kPeriod_s);
     EXPECT_EQ(diagnosis.verdict, with_fault ? Verdict::inconclusive : Verdict::healthy);
     EXPECT_TRUE(diagnosis.faults.empty());
@@ -168,7 +169,7 @@ TEST(Verdict, ASevereIssueForbidsHealthyAndHidesNoFault) {
     Diagnosis diagnosis = of_log(1000, 1000);
     diagnosis.log.issues.add(make_issue("unit_implausible", Severity::severe, "q1 looks like degrees"));
     std::vector<FaultFinding> faults;
-    if (with_fault) faults.push_back(fault(FaultKind::locked, 1, 1.0));
+    if (with_fault) faults.push_back(fault(FaultKind::locked, 1_joint, 1.0));
     diagnosis = with_verdict(diagnosis, faults, kPeriod_s);
     EXPECT_EQ(diagnosis.verdict, with_fault ? Verdict::faulty : Verdict::inconclusive);
     EXPECT_EQ(diagnosis.verdict_reason.find("q1 looks like degrees") != std::string::npos, !with_fault);
@@ -176,45 +177,45 @@ TEST(Verdict, ASevereIssueForbidsHealthyAndHidesNoFault) {
 }
 
 TEST(MergeFaults, AFaultThatPausesIsOneFinding) {
-  const auto merged =
-      merge_continued({fault(FaultKind::locked, 2, 1.0, 2.0), fault(FaultKind::locked, 2, 2.5, 4.0),
-                       fault(FaultKind::locked, 1, 3.5, 5.0)});
+  const auto merged = merge_continued({fault(FaultKind::locked, 2_joint, 1.0, 2.0),
+                                       fault(FaultKind::locked, 2_joint, 2.5, 4.0),
+                                       fault(FaultKind::locked, 1_joint, 3.5, 5.0)});
   ASSERT_EQ(merged.size(), 2u);
-  EXPECT_EQ(merged[0].label.joint, 2);
+  EXPECT_EQ(merged[0].label.joint, 2_joint);
   EXPECT_EQ(merged[0].end_s, 4.0);
-  EXPECT_EQ(merged[1].label.joint, 1);
+  EXPECT_EQ(merged[1].label.joint, 1_joint);
 }
 
 TEST(MergeFaults, WhatBeginsAtTheSameJointWhileAFaultLastsIsAnotherFault) {
-  EXPECT_EQ(merge_continued(
-                {fault(FaultKind::payload_change, 3, 2.0, 9.0), fault(FaultKind::torque_loss, 3, 5.0, 9.0)})
+  EXPECT_EQ(merge_continued({fault(FaultKind::payload_change, 3_joint, 2.0, 9.0),
+                             fault(FaultKind::torque_loss, 3_joint, 5.0, 9.0)})
                 .size(),
             2u);
-  EXPECT_EQ(merge_continued({fault(FaultKind::payload_change, 3, 2.0, 9.0),
-                             fault(FaultKind::payload_change, 3, 5.0, 9.0)})
+  EXPECT_EQ(merge_continued({fault(FaultKind::payload_change, 3_joint, 2.0, 9.0),
+                             fault(FaultKind::payload_change, 3_joint, 5.0, 9.0)})
                 .size(),
             2u)
       << "the load changes twice";
 }
 
 TEST(MergeFaults, APushIsPartOfAFaultWhereItEndsAndNotWhileItLasts) {
-  const FaultFinding friction = fault(FaultKind::friction_increase, 2, 1.0, 4.0);
-  const auto ends = merge_continued({friction, fault(FaultKind::collision, 2, 3.9, 4.4)});
+  const FaultFinding friction = fault(FaultKind::friction_increase, 2_joint, 1.0, 4.0);
+  const auto ends = merge_continued({friction, fault(FaultKind::collision, 2_joint, 3.9, 4.4)});
   ASSERT_EQ(ends.size(), 1u);
   EXPECT_EQ(ends[0].end_s, 4.4);
-  EXPECT_EQ(merge_continued({friction, fault(FaultKind::collision, 2, 2.5, 2.6)}).size(), 2u);
+  EXPECT_EQ(merge_continued({friction, fault(FaultKind::collision, 2_joint, 2.5, 2.6)}).size(), 2u);
 }
 
 TEST(MergeFaults, CollisionsPassAndStayApart) {
-  const auto merged =
-      merge_continued({fault(FaultKind::collision, 2, 1.0, 1.1), fault(FaultKind::collision, 2, 3.0, 3.1)});
+  const auto merged = merge_continued(
+      {fault(FaultKind::collision, 2_joint, 1.0, 1.1), fault(FaultKind::collision, 2_joint, 3.0, 3.1)});
   EXPECT_EQ(merged.size(), 2u);
 }
 
 TEST(MergeFaults, APushThatAnUnknownDisturbanceFollowsIsItsBeginning) {
-  const auto merged =
-      merge_continued({fault(FaultKind::collision, 2, 1.0, 1.1), fault(FaultKind::unknown, 0, 1.6, 5.0),
-                       fault(FaultKind::collision, 1, 5.5, 5.6), fault(FaultKind::collision, 1, 8.0, 8.1)});
+  const auto merged = merge_continued(
+      {fault(FaultKind::collision, 2_joint, 1.0, 1.1), fault(FaultKind::unknown, Joint(), 1.6, 5.0),
+       fault(FaultKind::collision, 1_joint, 5.5, 5.6), fault(FaultKind::collision, 1_joint, 8.0, 8.1)});
   ASSERT_EQ(merged.size(), 2u);
   EXPECT_EQ(merged[0].label.kind, FaultKind::unknown);
   EXPECT_EQ(merged[0].onset_s, 1.0);
@@ -223,22 +224,24 @@ TEST(MergeFaults, APushThatAnUnknownDisturbanceFollowsIsItsBeginning) {
 }
 
 TEST(MergeFaults, WhatShakesBeforeALastingFaultIsItsOnset) {
-  FaultFinding shaking = fault(FaultKind::unknown, 0, 1.0, 1.3);
-  shaking.could_also_be.emplace_back().label = {FaultKind::collision, 2};
-  const auto merged = merge_continued({shaking, fault(FaultKind::locked, 2, 1.6, 9.0)});
+  FaultFinding shaking = fault(FaultKind::unknown, Joint(), 1.0, 1.3);
+  shaking.could_also_be.emplace_back().label = {FaultKind::collision, 2_joint};
+  const auto merged = merge_continued({shaking, fault(FaultKind::locked, 2_joint, 1.6, 9.0)});
   ASSERT_EQ(merged.size(), 1u);
   EXPECT_EQ(merged[0].label.kind, FaultKind::locked);
   EXPECT_EQ(merged[0].onset_s, 1.0);
-  EXPECT_EQ(merge_continued({shaking, fault(FaultKind::locked, 3, 1.6, 9.0)}).size(), 2u) << "another joint";
-  EXPECT_EQ(merge_continued({shaking, fault(FaultKind::locked, 2, 2.1, 9.0)}).size(), 2u) << "much later";
+  EXPECT_EQ(merge_continued({shaking, fault(FaultKind::locked, 3_joint, 1.6, 9.0)}).size(), 2u)
+      << "another joint";
+  EXPECT_EQ(merge_continued({shaking, fault(FaultKind::locked, 2_joint, 2.1, 9.0)}).size(), 2u)
+      << "much later";
   shaking.end_s = 4.0;
-  EXPECT_EQ(merge_continued({shaking, fault(FaultKind::locked, 2, 4.1, 9.0)}).size(), 2u)
+  EXPECT_EQ(merge_continued({shaking, fault(FaultKind::locked, 2_joint, 4.1, 9.0)}).size(), 2u)
       << "nothing shakes that long";
 }
 
 TEST(MergeFaults, APushLongBeforeAnUnknownDisturbanceStays) {
-  const auto merged =
-      merge_continued({fault(FaultKind::collision, 2, 1.0, 1.1), fault(FaultKind::unknown, 0, 2.2, 5.0)});
+  const auto merged = merge_continued(
+      {fault(FaultKind::collision, 2_joint, 1.0, 1.1), fault(FaultKind::unknown, Joint(), 2.2, 5.0)});
   EXPECT_EQ(merged.size(), 2u);
 }
 
@@ -278,11 +281,11 @@ TEST(Verdict, ALogOfWhichLittleCouldBeExplainedIsNotCalledHealthy) {
 TEST(Verdict, ALogInWhichNoJointMovesIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.log.joints = 3;
-  diagnosis.log.resting = {1, 2, 3};
+  diagnosis.log.resting = {1_joint, 2_joint, 3_joint};
   diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_NE(diagnosis.verdict_reason.find("no joint moved"), std::string::npos);
-  diagnosis.log.resting = {1, 3};
+  diagnosis.log.resting = {1_joint, 3_joint};
   diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
@@ -290,13 +293,13 @@ TEST(Verdict, ALogInWhichNoJointMovesIsNotCalledHealthy) {
 TEST(Verdict, AFaultStandsInARoughLog) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.roughness = {9.0};
-  diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1, 2.0)}, kPeriod_s);
+  diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1_joint, 2.0)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
 }
 
 TEST(Verdict, AMomentThatNoFaultFreeRobotShowsIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
-  diagnosis.residuals = {{1, 1.1, 55.0, 3.0}, {2, 4.4, 276.0, 12.22}};
+  diagnosis.residuals = {{1_joint, 1.1, 55.0, 3.0}, {2_joint, 4.4, 276.0, 12.22}};
   diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_NE(diagnosis.verdict_reason.find("joint 2 at 12.220 s"), std::string::npos);
@@ -308,7 +311,7 @@ TEST(Verdict, AMomentThatNoFaultFreeRobotShowsIsNotCalledHealthy) {
 TEST(Verdict, AJointThatWasNotJudgedForLongForbidsHealthyAndStandsInTheReason) {
   Diagnosis diagnosis = of_log(1000, 700);
   diagnosis.log.end_s = 10.0;
-  diagnosis.log.unjudged = {{2, 7.0, 10.0, false, true}, {1, 3.0, 4.0, true, false}};
+  diagnosis.log.unjudged = {{2_joint, 7.0, 10.0, false, true}, {1_joint, 3.0, 4.0, true, false}};
   diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::inconclusive);
   EXPECT_EQ(

@@ -19,7 +19,7 @@ TEST(EvidenceCourse, TheAlarmIsTheFirstTimeBeyondTheThreshold) {
 
 TEST(EvidenceCourse, CoursesAreTracedAtCommonTimes) {
   const EvidenceCourse later{{2.5, 3.5}, {7.0, 9.0}};
-  const FaultLabel loss{FaultKind::torque_loss, 1}, lock{FaultKind::locked, 2};
+  const FaultLabel loss{FaultKind::torque_loss, 1_joint}, lock{FaultKind::locked, 2_joint};
   const EvidenceTrace trace = trace_of({loss, lock}, {kRising, later}, 3.2);
   EXPECT_EQ(trace.time, (std::vector<double>{1.0, 2.0, 2.5, 3.0}));
   ASSERT_EQ(trace.curves.size(), 2u);
@@ -35,7 +35,7 @@ TEST(EvidenceCourse, ALongTraceIsThinned) {
     course.time_s.push_back(0.001 * k);
     course.nats.push_back(k);
   }
-  EXPECT_LE(trace_of({{FaultKind::locked, 1}}, {course}, 1e9).time.size(), 121u);
+  EXPECT_LE(trace_of({{FaultKind::locked, 1_joint}}, {course}, 1e9).time.size(), 121u);
 }
 
 }  // namespace

@@ -33,14 +33,14 @@ TEST(ExplainAt, AHealthyLogHasNoFaultAtAnyTime) {
 TEST(ExplainAt, AFalseReadingIsNamedWithItsSize) {
   const auto bias = explain_at(on_grid(with_reading(0.05, 0.0)), model(), kOnset_s, kNeverEnds);
   ASSERT_TRUE(bias);
-  EXPECT_EQ(bias->label(), (FaultLabel{FaultKind::sensor_bias, 2}));
+  EXPECT_EQ(bias->label(), (FaultLabel{FaultKind::sensor_bias, 2_joint}));
   EXPECT_NEAR(bias->claim.size[0], 0.05, 0.003);
 }
 
 TEST(ExplainAt, ADriftThatTheVelocityDoesNotShowIsNamed) {
   const auto drift = explain_at(on_grid(with_reading(0.0, 0.05)), model(), kOnset_s, kNeverEnds);
   ASSERT_TRUE(drift);
-  EXPECT_EQ(drift->label(), (FaultLabel{FaultKind::sensor_drift, 2}));
+  EXPECT_EQ(drift->label(), (FaultLabel{FaultKind::sensor_drift, 2_joint}));
   EXPECT_TRUE(drift->claim.velocity_is_true);
   EXPECT_NEAR(drift->claim.size[0], 0.05, 0.005);
 }
@@ -60,7 +60,7 @@ TEST(ExplainAt, ATorqueOffsetIsToldWithItsSign) {
     if (log.time[k] >= kOnset_s) log.tau[0][k] += 1.5;
   const auto offset = explain_at(on_grid(std::move(log)), model(), kOnset_s, kNeverEnds);
   ASSERT_TRUE(offset);
-  EXPECT_EQ(offset->label(), (FaultLabel{FaultKind::torque_sensor_error, 1}));
+  EXPECT_EQ(offset->label(), (FaultLabel{FaultKind::torque_sensor_error, 1_joint}));
   EXPECT_NEAR(offset->claim.size[0], 1.5, 0.1) << "the torque reads too much";
 }
 

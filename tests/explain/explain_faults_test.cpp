@@ -33,9 +33,8 @@ std::vector<ExplainedFault> faults_of(Log log) {
 std::string said(const std::vector<ExplainedFault>& faults) {
   std::string out;
   for (const ExplainedFault& f : faults)
-    out += std::string(to_string(f.claim.kind)) + " " + std::to_string(f.claim.joint) + " from " +
-           std::to_string(f.claim.onset_s) + " to " + std::to_string(f.claim.end_s) + ": " +
-           std::to_string(f.evidence) + "; ";
+    out += label_text(f.claim.label()) + " from " + std::to_string(f.claim.onset_s) + " to " +
+           std::to_string(f.claim.end_s) + ": " + std::to_string(f.evidence) + "; ";
   return out;
 }
 
@@ -66,19 +65,20 @@ TEST(ExplainFaults, ADayOfMoreFrictionInOneDirectionIsHealthy) {
 TEST(ExplainFaults, TheDayOfALogHasNoGainOfAnAxisThatLiftsItsOwnWeight) {
   const ExplainedLog log = explain_faults(on_grid(simulate_closed_form(of_day(2), run_of(21))), scara_model(),
                                           evidence_limits({}));
-  const auto listed = [&](DayEffectKind kind, int joint) {
+  const auto listed = [&](DayEffectKind kind, Joint joint) {
     return std::ranges::count_if(log.day,
                                  [&](const DayEffect& e) { return e.kind == kind && e.joint == joint; });
   };
-  EXPECT_EQ(listed(DayEffectKind::torque_gain, 2), 1);
-  EXPECT_EQ(listed(DayEffectKind::friction, 3), 1);
-  EXPECT_EQ(listed(DayEffectKind::torque_gain, 3), 0);
+  EXPECT_EQ(listed(DayEffectKind::torque_gain, 2_joint), 1);
+  EXPECT_EQ(listed(DayEffectKind::friction, 3_joint), 1);
+  EXPECT_EQ(listed(DayEffectKind::torque_gain, 3_joint), 0);
 }
 
 TEST(ExplainFaults, AFaultThatEndsHasItsEnd) {
-  const auto faults = faults_of(with_loss(simulate_closed_form(of_day(0), run_of(22)), 2, 0.4, 2.5, 5.5));
+  const auto faults =
+      faults_of(with_loss(simulate_closed_form(of_day(0), run_of(22)), 2_joint, 0.4, 2.5, 5.5));
   ASSERT_EQ(faults.size(), 1u) << said(faults);
-  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 2_joint}));
   EXPECT_NEAR(faults[0].claim.onset_s, 2.5, 0.05);
   EXPECT_NEAR(faults[0].claim.end_s, 5.5, 0.05);
   EXPECT_NEAR(faults[0].claim.size[0], 0.4, 0.04);
@@ -88,7 +88,7 @@ TEST(ExplainFaults, AFaultThatEndsHasItsEnd) {
 bool names_both(const std::vector<ExplainedFault>& faults) {
   return faults.size() == 2 && std::ranges::all_of(faults, [](const ExplainedFault& fault) {
            return fault.claim.kind == FaultKind::torque_loss && std::abs(fault.claim.onset_s - 4.0) < 0.05 &&
-                  std::abs(fault.claim.size[0] - (fault.claim.joint == 2 ? 0.4 : 0.3)) < 0.04;
+                  std::abs(fault.claim.size[0] - (fault.claim.joint == 2_joint ? 0.4 : 0.3)) < 0.04;
          });
 }
 
@@ -96,19 +96,19 @@ bool names_both(const std::vector<ExplainedFault>& faults) {
 TEST(ExplainFaults, TwoFaultsThatBeginAtOnceMayBothBeFound) {
   int both = 0;
   for (std::uint64_t seed = 23; seed < 31; ++seed) {
-    const Log one = with_loss(simulate_closed_form(of_day(0), run_of(seed)), 2, 0.4, 4.0);
-    both += names_both(faults_of(with_loss(one, 1, 0.3, 4.0)));
+    const Log one = with_loss(simulate_closed_form(of_day(0), run_of(seed)), 2_joint, 0.4, 4.0);
+    both += names_both(faults_of(with_loss(one, 1_joint, 0.3, 4.0)));
   }
   EXPECT_GE(both, 3);
 }
 
 TEST(ExplainFaults, AFaultIsFoundBehindAnotherOne) {
-  Log log = with_loss(simulate_closed_form(of_day(0), run_of(24)), 1, 0.3, 2.5);
+  Log log = with_loss(simulate_closed_form(of_day(0), run_of(24)), 1_joint, 0.3, 2.5);
   log = changed(std::move(log), 5.0, kNeverEnds, [](Log& l, int k) { l.q[1][k] += 0.05; });
   const auto faults = faults_of(std::move(log));
   ASSERT_EQ(faults.size(), 2u) << said(faults);
-  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1}));
-  EXPECT_EQ(faults[1].label(), (FaultLabel{FaultKind::sensor_bias, 2}));
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1_joint}));
+  EXPECT_EQ(faults[1].label(), (FaultLabel{FaultKind::sensor_bias, 2_joint}));
   EXPECT_NEAR(faults[1].claim.onset_s, 5.0, 0.02);
 }
 
@@ -119,12 +119,12 @@ TEST(ExplainFaults, ALostTorqueThatComesTwiceIsTwoFaults) {
     run.duration_s = 10.0;
     Log log = simulate_closed_form(of_day(0), run);
     for (const double onset_s : {2.2, 6.1})
-      log = with_loss(std::move(log), 1, 0.6, onset_s, onset_s + kLasts_s);
+      log = with_loss(std::move(log), 1_joint, 0.6, onset_s, onset_s + kLasts_s);
     const auto faults = faults_of(std::move(log));
     ASSERT_EQ(faults.size(), 2u) << said(faults);
     for (const double onset_s : {2.2, 6.1}) {
       const FaultClaim& claim = faults[onset_s > 3.0].claim;
-      EXPECT_EQ(claim.label(), (FaultLabel{FaultKind::torque_loss, 1}));
+      EXPECT_EQ(claim.label(), (FaultLabel{FaultKind::torque_loss, 1_joint}));
       EXPECT_NEAR(claim.onset_s, onset_s, 0.05);
       EXPECT_NEAR(claim.end_s, onset_s + kLasts_s, 0.05);
       EXPECT_NEAR(claim.size[0], 0.6, 0.05);
@@ -136,8 +136,8 @@ TEST(ExplainFaults, ALostTorqueThatIsGoneForASecondIsTwoFaults) {
   for (const std::uint64_t seed : {26, 28, 29, 30}) {
     const auto faults = faults_of(with_loss_but_for_a_second(seed));
     ASSERT_EQ(faults.size(), 2u) << said(faults);
-    EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1}));
-    EXPECT_EQ(faults[1].label(), (FaultLabel{FaultKind::torque_loss, 1}));
+    EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1_joint}));
+    EXPECT_EQ(faults[1].label(), (FaultLabel{FaultKind::torque_loss, 1_joint}));
     EXPECT_NEAR(faults[0].claim.onset_s, 3.5, 0.05);
     EXPECT_NEAR(faults[0].claim.end_s, 5.5, 0.05);
     EXPECT_NEAR(faults[1].claim.onset_s, 6.5, 0.05);
@@ -164,7 +164,7 @@ TEST(ExplainFaults, AnEncoderThatJumpsOnInOneDirectionIsOneFaultOfNoKind) {
     log = changed(std::move(log), at_s, kNeverEnds, [](Log& l, int k) { l.q[1][k] += 0.04; });
   const auto faults = faults_of(std::move(log));
   ASSERT_EQ(faults.size(), 1u) << said(faults);
-  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::unknown, 2_joint}));
   EXPECT_NEAR(faults[0].claim.onset_s, 3.0, 0.02);
 }
 
@@ -182,7 +182,7 @@ TEST(ExplainFaults, FrictionInARangeOfPositionsIsOneFaultOfNoKind) {
   const auto faults =
       faults_of(with_more_friction([](double t, double q) { return t > 2.0 && std::abs(q) < 0.3; }));
   ASSERT_EQ(faults.size(), 1u) << said(faults);
-  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::unknown, 2_joint}));
   EXPECT_EQ(faults[0].claim.end_s, kNeverEnds);
 }
 
@@ -191,7 +191,7 @@ TEST(ExplainFaults, FrictionThatComesTwiceAtAnyPositionIsTwoFaults) {
       with_more_friction([](double t, double) { return (t > 2.0 && t < 3.5) || (t > 5.0 && t < 6.5); }));
   ASSERT_EQ(faults.size(), 2u) << said(faults);
   for (const ExplainedFault& fault : faults)
-    EXPECT_EQ(fault.label(), (FaultLabel{FaultKind::friction_increase, 2}));
+    EXPECT_EQ(fault.label(), (FaultLabel{FaultKind::friction_increase, 2_joint}));
 }
 
 TEST(LogFit, ALargeFaultDoesNotBendTheDayToWhatNoDayIs) {
@@ -208,7 +208,7 @@ TEST(LogFit, BesideALockedSlideTheOtherJointsShowWhatIsCarried) {
   run.carries_to_s = 6.0;
   run.piece_kg = 0.4;
   Log log = simulate_closed_form(of_day(1), run);
-  const FaultClaim lock{FaultKind::locked, 3, 3.0};
+  const FaultClaim lock{FaultKind::locked, 3_joint, 3.0};
   for (int k = 0; k < log.rows(); ++k)  // the drive of a locked slide may give what a loaded one asks for
     if (log.time[k] >= lock.onset_s) log.tau[2][k] = 9.81 * (ClosedFormScara{}.m3 + run.piece_kg);
   BalanceModel model = scara_model();
@@ -222,10 +222,11 @@ TEST(LogFit, BesideALockedSlideTheOtherJointsShowWhatIsCarried) {
 }
 
 TEST(LogFit, AKnownFaultIsAnEffectOfTheLog) {
-  Log log = with_loss(simulate_closed_form(of_day(1), run_of(27)), 2, 0.4, 4.0);
+  Log log = with_loss(simulate_closed_form(of_day(1), run_of(27)), 2_joint, 0.4, 4.0);
   EXPECT_GT(fit_of(log).healthy().mean_square(), 3.0);
-  const LogFit known(on_grid(std::move(log)), scara_model(),
-                     {{FaultKind::torque_loss, 2, 4.0, kNeverEnds, Eigen::VectorXd::Constant(1, 0.35)}});
+  const LogFit known(
+      on_grid(std::move(log)), scara_model(),
+      {{FaultKind::torque_loss, 2_joint, 4.0, kNeverEnds, Eigen::VectorXd::Constant(1, 0.35)}});
   EXPECT_LT(known.healthy().mean_square(), 1.5);
   EXPECT_NEAR(known.healthy().day[known.healthy().day.size() - 1], 0.05, 0.02);  // beyond the claim's size
 }

@@ -64,7 +64,7 @@ TEST(FitDays, TorquesOfSamplesThatAreAveragedActInTime) {
   MemorySource source(std::move(log));
   const auto faults = explain_whole_log(uniform_log(source, 0.001), {model, limits()}).faults;
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1_joint}));
   EXPECT_NEAR(faults[0].claim.onset_s, 3.0, 0.01);
   EXPECT_NEAR(faults[0].claim.size[0], 0.4, 0.04);
 }
@@ -105,7 +105,7 @@ TEST(ExplainLog, ATorqueThatIsLostIsFoundWithJointOnsetAndSize) {
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_loss, 2_joint}));
   EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.03);
   EXPECT_NEAR(fault->claim.size[0], 0.3, 0.03);
   EXPECT_GE(fault->alarm_s, fault->claim.onset_s);
@@ -119,7 +119,7 @@ TEST(ExplainLog, ATorqueThatIsLostBendsNoGear) {
   const UniformLog log = testing::on_grid(simulate_closed_form(of_day(0), run_of(12)));
   const BalanceRows rows = balance_rows(log, soft.setting, soft.rigid, soft.theta);
   const auto faults = linear_faults(rows, soft);
-  const LinearFault* loss = linear_of(faults, {FaultKind::torque_loss, 2});
+  const LinearFault* loss = linear_of(faults, {FaultKind::torque_loss, 2_joint});
   ASSERT_TRUE(loss);
   // The balance of the robot with the whole torque less that of one with no torque at joint 2.
   UniformLog without = log;
@@ -141,7 +141,7 @@ TEST(ExplainLog, APositionThatIsOffIsFoundWithItsSize) {
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::sensor_bias, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::sensor_bias, 2_joint}));
   EXPECT_NEAR(fault->claim.size[0], 0.05, 0.003);
   EXPECT_NEAR(fault->claim.onset_s, 3.0, 0.01);
 }
@@ -157,7 +157,7 @@ TEST(ExplainLog, APositionThatJumpsIsFoundWhereTheVelocityIsComputedFromIt) {
   }
   const auto fault = decided(fit_of(std::move(log)));
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::sensor_bias, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::sensor_bias, 2_joint}));
   EXPECT_NEAR(fault->claim.size[0], 0.05, 0.003);
   EXPECT_NEAR(fault->claim.onset_s, 3.0, 0.01);
   EXPECT_FALSE(fault->claim.velocity_is_true);
@@ -170,7 +170,7 @@ TEST(ExplainLog, AForceOfAMomentIsACollision) {
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2_joint}));
   EXPECT_NEAR(fault->claim.onset_s, 5.0, 0.03);
   EXPECT_NEAR(impulse_of(fault->claim, 1, 3), 0.4, 0.1);
 }
@@ -181,7 +181,7 @@ TEST(ExplainLog, AMassOnAnInnerLinkIsNamedWithTheLinkAndItsSize) {
   run.load_kg = 0.2;
   const std::optional<ExplainedFault> fault = decided(fit_of(simulate_closed_form(of_day(1), run)));
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::payload_change, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::payload_change, 2_joint}));
   EXPECT_NEAR(fault->claim.size[0], 0.2, 0.02);
   EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.02);
 }
@@ -208,7 +208,7 @@ LogFit with_vibration(double amplitude) {
 TEST(ExplainLog, AVibrationOfWhichAPushExplainsOnePeriodIsUnknown) {
   const auto fault = decided(with_vibration(1.0));
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::unknown, 2_joint}));
   EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.15);
   EXPECT_NEAR(fault->alarm_s, 4.5, 0.5);
 }
@@ -219,7 +219,7 @@ TEST(ExplainLog, AVibrationThatNoKnownFaultExplainsAtAllIsUnknown) {
   ASSERT_TRUE(named_faults(e, limits(), 1).empty());
   const auto fault = decide_log(e, limits());
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::unknown, 2_joint}));
   EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.15);
   EXPECT_NEAR(fault->alarm_s, 4.5, 0.5);
   EXPECT_GT(fault->evidence, fault->limit);
@@ -239,7 +239,7 @@ TEST(ExplainLog, FrictionThatCreepsIsMoreFriction) {
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::friction_increase, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::friction_increase, 2_joint}));
   EXPECT_TRUE(fault->claim.grows);
   EXPECT_NEAR(fault->claim.onset_s, 3.0, 0.3);
   EXPECT_NEAR(fault->claim.size[1], 0.4, 0.1);
@@ -253,7 +253,7 @@ TEST(ExplainLog, APushThatSwellsAndFadesIsACollision) {
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2_joint}));
   EXPECT_NEAR(fault->claim.end_s - fault->claim.onset_s, 0.8, 0.2);
 }
 
@@ -266,14 +266,14 @@ Log with_torque_on_joint_2(double end_s, std::uint64_t seed) {
 TEST(ExplainLog, AConstantTorqueOnOneJointIsAPushIfItIsShort) {
   const auto fault = decided(fit_of(with_torque_on_joint_2(4.3, 19)));
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2_joint}));
   EXPECT_NEAR(fault->claim.end_s, 4.3, 0.02);
 }
 
 TEST(ExplainLog, AConstantTorqueOnOneJointIsAnOffsetIfItLasts) {
   const auto fault = decided(fit_of(with_torque_on_joint_2(6.5, 20)));
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_sensor_error, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_sensor_error, 2_joint}));
 }
 
 TEST(ExplainLog, ADriveThatClipsIsUnknown) {
@@ -303,7 +303,7 @@ TEST(ExplainLog, AHaltThatShakesTheOtherJointsIsOneLock) {
   const ExplainedLog log =
       explain_faults(uniform_log(source, kExplainedPeriod_s), scara_model(), limits(), {});
   ASSERT_EQ(log.faults.size(), 1u);
-  EXPECT_EQ(log.faults[0].label(), (FaultLabel{FaultKind::locked, 2}));
+  EXPECT_EQ(log.faults[0].label(), (FaultLabel{FaultKind::locked, 2_joint}));
   EXPECT_NEAR(log.faults[0].claim.onset_s, 4.0, 0.05);
 }
 
@@ -312,7 +312,7 @@ TEST(ExplainLog, AnEncoderThatReadsAVelocityAnewIsNotStuck) {
   for (int k = 1001; k < log.rows(); ++k) log.q[1][k] = log.q[1][1000];  // too coarse to show any noise
   const auto fault = decided(fit_of(std::move(log)));
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::locked, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::locked, 2_joint}));
 }
 
 TEST(ExplainLog, AVelocityThatFadesInAFilterBelongsToAStuckEncoder) {
@@ -324,7 +324,7 @@ TEST(ExplainLog, AVelocityThatFadesInAFilterBelongsToAStuckEncoder) {
   }
   const auto fault = decided(fit_of(std::move(log)));
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::stuck_encoder, 2}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::stuck_encoder, 2_joint}));
 }
 
 TEST(ExplainLog, APositionOfASlideThatJumpsContradictsItsVelocity) {
@@ -333,7 +333,7 @@ TEST(ExplainLog, APositionOfASlideThatJumpsContradictsItsVelocity) {
     if (log.time[k] >= 3.0) log.q[2][k] += 0.0006;  // the torque hardly shows it: nothing depends on it
   const auto fault = decided(fit_of(std::move(log)));
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::sensor_bias, 3}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::sensor_bias, 3_joint}));
   EXPECT_NEAR(fault->claim.size[0], 0.0006, 1e-4);
   EXPECT_GT(fault->alarm_s, 3.0 - kExplainedPeriod_s);
 }
@@ -352,7 +352,8 @@ TEST(Misfit, DoesNotDependOnWhichSideOfARowAFaultEnds) {
     std::vector<double> nats;
     for (const double moved_s : {-1e-9, 1e-9}) {
       const double end_s = fit.time_s()[row] - edge_s + moved_s;
-      const std::optional<FaultHypothesis> h = judged.go({FaultKind::torque_sensor_error, 2, 3.0, end_s, {}});
+      const std::optional<FaultHypothesis> h =
+          judged.go({FaultKind::torque_sensor_error, 2_joint, 3.0, end_s, {}});
       ASSERT_TRUE(h);
       nats.push_back(misfit(fit, change, *h));
     }

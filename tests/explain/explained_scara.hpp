@@ -70,15 +70,17 @@ Log changed(Log log, double onset_s, double end_s, Change change) {
 }
 
 /// The log of a drive that loses a share of its torque.
-inline Log with_loss(Log log, int joint, double share, double onset_s, double end_s = kNeverEnds) {
-  return changed(std::move(log), onset_s, end_s, [=](Log& l, int k) { l.tau[joint - 1][k] /= 1.0 - share; });
+inline Log with_loss(Log log, Joint joint, double share, double onset_s, double end_s = kNeverEnds) {
+  return changed(std::move(log), onset_s, end_s,
+                 [=](Log& l, int k) { l.tau[joint.index()][k] /= 1.0 - share; });
 }
 
 /// A loose contact: half of the torque of joint 1 is lost from 3.5 s on, but not from 5.5 to 6.5 s.
 inline Log with_loss_but_for_a_second(std::uint64_t seed) {
   ClosedFormRun run = run_of(seed);
   run.duration_s = 12.0;
-  return with_loss(with_loss(simulate_closed_form(of_day(0), run), 1, 0.5, 3.5, 5.5), 1, 0.5, 6.5);
+  return with_loss(with_loss(simulate_closed_form(of_day(0), run), 1_joint, 0.5, 3.5, 5.5), 1_joint, 0.5,
+                   6.5);
 }
 
 }  // namespace faultline::testing

@@ -21,7 +21,7 @@ using testing::with_loss_but_for_a_second;
 TEST(FaultSpans, AreThoseInWhichTheLogShowsTheFault) {
   const LogFit fit = fit_of(with_loss_but_for_a_second(26));
   for (const FaultClaim& claim :
-       {FaultClaim{FaultKind::torque_loss, 1, 3.5}, FaultClaim{FaultKind::torque_loss, 1, 6.6}}) {
+       {FaultClaim{FaultKind::torque_loss, 1_joint, 3.5}, FaultClaim{FaultKind::torque_loss, 1_joint, 6.6}}) {
     const std::vector<FaultClaim> spans = fault_spans(fit, claim, free_form(fit));
     ASSERT_EQ(spans.size(), 2u);
     EXPECT_NEAR(spans[0].onset_s, 3.5, 0.05);
@@ -35,9 +35,10 @@ TEST(FaultSpans, AreThoseInWhichTheLogShowsTheFault) {
 TEST(FaultSpans, AStrongFaultDoesNotBendTheEffectsOfTheDay) {
   ClosedFormRun run = run_of(27);
   run.duration_s = 10.0;
-  Log log = with_loss(simulate_closed_form(of_day(0), run), 2, 0.98, 2.2, 4.2);
-  const LogFit fit = fit_of(with_loss(std::move(log), 2, 0.98, 6.2));
-  const std::vector<FaultClaim> spans = fault_spans(fit, {FaultKind::torque_loss, 2, 0.6}, free_form(fit));
+  Log log = with_loss(simulate_closed_form(of_day(0), run), 2_joint, 0.98, 2.2, 4.2);
+  const LogFit fit = fit_of(with_loss(std::move(log), 2_joint, 0.98, 6.2));
+  const std::vector<FaultClaim> spans =
+      fault_spans(fit, {FaultKind::torque_loss, 2_joint, 0.6}, free_form(fit));
   ASSERT_EQ(spans.size(), 2u);
   EXPECT_NEAR(spans[0].onset_s, 2.2, 0.05);
   EXPECT_NEAR(spans[0].end_s, 4.2, 0.05);
@@ -45,20 +46,21 @@ TEST(FaultSpans, AStrongFaultDoesNotBendTheEffectsOfTheDay) {
 }
 
 TEST(FaultSpans, AFaultFromTheFirstRowOnBeginsBehindTheLead) {
-  const LogFit fit = fit_of(with_loss(simulate_closed_form(of_day(0), run_of(26)), 1, 0.5, 0.0, 4.0));
-  const std::vector<FaultClaim> spans = fault_spans(fit, {FaultKind::torque_loss, 1, 0.6}, free_form(fit));
+  const LogFit fit = fit_of(with_loss(simulate_closed_form(of_day(0), run_of(26)), 1_joint, 0.5, 0.0, 4.0));
+  const std::vector<FaultClaim> spans =
+      fault_spans(fit, {FaultKind::torque_loss, 1_joint, 0.6}, free_form(fit));
   ASSERT_EQ(spans.size(), 1u);
   EXPECT_NEAR(spans[0].onset_s, kLead_s, 0.1);
 }
 
 TEST(FaultSpans, AFaultThatAHealthyLogDoesNotShowHasNone) {
   const LogFit fit = fit_of(simulate_closed_form(of_day(0), run_of(26)));
-  EXPECT_TRUE(fault_spans(fit, {FaultKind::torque_loss, 1, 3.5}, free_form(fit)).empty());
+  EXPECT_TRUE(fault_spans(fit, {FaultKind::torque_loss, 1_joint, 3.5}, free_form(fit)).empty());
 }
 
 TEST(FaultSpans, AFaultThatIsNotLinearHasNone) {
   const LogFit fit = fit_of(with_loss_but_for_a_second(26));
-  EXPECT_TRUE(fault_spans(fit, {FaultKind::locked, 1, 3.5}, free_form(fit)).empty());
+  EXPECT_TRUE(fault_spans(fit, {FaultKind::locked, 1_joint, 3.5}, free_form(fit)).empty());
 }
 
 using testing::fit_of;

@@ -62,7 +62,7 @@ TEST(ExplainLog, AFaultOfALoudLogIsFound) {
   const LogFit fit = fit_of(std::move(log));
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
-  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_loss, 1_joint}));
 }
 
 TEST(ExplainLog, AFaultSoonAfterTheStartIsNoNoiseOfItsLog) {
@@ -74,7 +74,7 @@ TEST(ExplainLog, AFaultSoonAfterTheStartIsNoNoiseOfItsLog) {
   const ExplainedFit own =
       explain_with_own_noise(log, scara_model(), {}, [](const LogFit& fit) { return explain_log(fit); });
   const FaultHypothesis& best = own.explanation.best.front();
-  EXPECT_EQ(FaultLabel(best.kind, best.joint), (FaultLabel{FaultKind::payload_change, 2}));
+  EXPECT_EQ(FaultLabel(best.kind, best.joint), (FaultLabel{FaultKind::payload_change, 2_joint}));
   EXPECT_GT(best.gain, 1e4);
   EXPECT_NEAR(best.onset_s, run.loaded_from_s, 0.02);
   EXPECT_EQ(own.fit.noise(), scara_model().noise);

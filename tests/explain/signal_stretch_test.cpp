@@ -19,20 +19,24 @@ using testing::scara_model;
 using testing::simulate_closed_form;
 using testing::with_loss;
 
-const FaultLabel kSensor1{FaultKind::torque_sensor_error, 1};
+const FaultLabel kSensor1{FaultKind::torque_sensor_error, 1_joint};
 
 Log healthy(std::uint64_t seed) { return simulate_closed_form(of_day(0), run_of(seed)); }
 
 /// Joint 1 is asked for another torque than its drive gives.
 SignalStretch drive(double onset_s, double end_s, double nats = 1000.0) {
-  return {
-      .joint = 1, .onset_s = onset_s, .alarm_s = onset_s + 0.02, .end_s = end_s, .nats = nats, .limit = 20.0};
+  return {.joint = 1_joint,
+          .onset_s = onset_s,
+          .alarm_s = onset_s + 0.02,
+          .end_s = end_s,
+          .nats = nats,
+          .limit = 20.0};
 }
 
 SignalStretch law(double onset_s, double end_s) {
   SignalStretch out = drive(onset_s, end_s);
   out.pair = SignalPair::control_law;
-  out.joint = 2;
+  out.joint = 2_joint;
   return out;
 }
 
@@ -45,22 +49,22 @@ TEST(SignalStretch, AShareThatIsMissingIsALossIfAnOffsetExplainsLess) {
   lost.loss = 0.4;
   lost.loss_explains = 0.9;
   lost.offset_explains = 0.5;
-  EXPECT_EQ(label_of(lost), (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_EQ(label_of(lost), (FaultLabel{FaultKind::torque_loss, 1_joint}));
   EXPECT_EQ(judge_stretch(lost, nullptr).fault.claim.size[0], 0.4);
   lost.offset_explains = 0.85;
-  EXPECT_EQ(label_of(lost), (FaultLabel{FaultKind::unknown, 1}));
+  EXPECT_EQ(label_of(lost), (FaultLabel{FaultKind::unknown, 1_joint}));
   lost.loss = 0.95;
   lost.offset_explains = 0.0;
-  EXPECT_EQ(label_of(lost), (FaultLabel{FaultKind::free_swinging, 1}));
+  EXPECT_EQ(label_of(lost), (FaultLabel{FaultKind::free_swinging, 1_joint}));
 }
 
 TEST(SignalStretch, TheTorqueBalanceAddsItsEvidenceForALoss) {
   SignalStretch lost = drive(4.0, kNeverEnds);
   lost.loss = 0.3;
   lost.loss_explains = 0.45;
-  const LogFit loses = fit_of(with_loss(healthy(41), 1, 0.3, 4.0));
+  const LogFit loses = fit_of(with_loss(healthy(41), 1_joint, 0.3, 4.0));
   const JudgedStretch both = judge_stretch(lost, &loses);
-  EXPECT_EQ(both.fault.label(), (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_EQ(both.fault.label(), (FaultLabel{FaultKind::torque_loss, 1_joint}));
   EXPECT_GT(both.in_balance, 100.0);
   EXPECT_NEAR(both.fault.evidence, 0.45 * lost.nats + both.in_balance, 1e-6);
   EXPECT_NEAR(both.fault.claim.size[0], 0.3, 0.03);
@@ -72,7 +76,7 @@ TEST(SignalStretch, ALossThatTheTorqueBalanceContradictsIsNoneOfTheDrive) {
   lost.loss_explains = 0.95;
   const LogFit is_healthy = fit_of(healthy(41));
   const ExplainedFault of_sensor = judge_stretch(lost, &is_healthy).fault;
-  EXPECT_EQ(of_sensor.label(), (FaultLabel{FaultKind::unknown, 1}));
+  EXPECT_EQ(of_sensor.label(), (FaultLabel{FaultKind::unknown, 1_joint}));
   EXPECT_EQ(of_sensor.could_also_be, std::vector{kSensor1});
   EXPECT_EQ(of_sensor.evidence, lost.nats) << "the torque balance shows nothing";
 }
@@ -81,7 +85,7 @@ TEST(SignalStretch, TimesOfALossAreThoseThatTheTorqueBalanceExplainsBest) {
   SignalStretch lost = drive(4.08, 5.2);
   lost.loss = 0.3;
   lost.loss_explains = 0.9;
-  const LogFit ends = fit_of(with_loss(healthy(46), 1, 0.3, 4.0, 5.0));
+  const LogFit ends = fit_of(with_loss(healthy(46), 1_joint, 0.3, 4.0, 5.0));
   const FaultClaim claim = judge_stretch(lost, &ends).fault.claim;
   EXPECT_NEAR(claim.onset_s, 4.0, 0.03);
   EXPECT_NEAR(claim.end_s, 5.0, 0.03);
@@ -97,7 +101,7 @@ TEST(SignalStretch, ASensorWithAnOffsetShowsInTheBalanceOfItsMeasurements) {
                is_healthy = fit_of(healthy(42));
   EXPECT_EQ(label_of(off, &shows), kSensor1);
   const ExplainedFault of_drive = judge_stretch(off, &is_healthy).fault;
-  EXPECT_EQ(of_drive.label(), (FaultLabel{FaultKind::unknown, 1}));
+  EXPECT_EQ(of_drive.label(), (FaultLabel{FaultKind::unknown, 1_joint}));
   EXPECT_EQ(of_drive.could_also_be, std::vector{kSensor1});
   off.end_s = 4.2;
   EXPECT_TRUE(judge_stretch(off, &is_healthy).fault.could_also_be.empty()) << "an offset of a sensor lasts";
@@ -107,7 +111,7 @@ TEST(SignalStretch, ALawThatDoesNotHoldForLongAfterAFaultIsTheControllersRespons
   const auto reported = [](const SignalStretch& stretch, const FaultClaim& fault) {
     return judged_stretches({stretch}, {}, {fault}, nullptr).size();
   };
-  const FaultClaim ended{FaultKind::locked, 1, 2.0, 3.0}, lasts{FaultKind::locked, 1, 2.0};
+  const FaultClaim ended{FaultKind::locked, 1_joint, 2.0, 3.0}, lasts{FaultKind::locked, 1_joint, 2.0};
   EXPECT_EQ(reported(law(4.0, 9.0), ended), 0u);
   EXPECT_EQ(reported(law(4.0, 4.5), lasts), 0u);
   EXPECT_EQ(reported(law(4.0, 4.5), ended), 1u) << "short, and behind the end of the fault";
@@ -116,7 +120,7 @@ TEST(SignalStretch, ALawThatDoesNotHoldForLongAfterAFaultIsTheControllersRespons
 
 TEST(SignalStretch, ADriveThatLagsBehindAJumpOfAMeasurementHasNoFault) {
   ExplainedFault jump;
-  jump.claim = {FaultKind::sensor_bias, 1, 4.0};
+  jump.claim = {FaultKind::sensor_bias, 1_joint, 4.0};
   jump.evidence = 5000.0;
   EXPECT_TRUE(judged_stretches({drive(4.0, 4.1, 42.0)}, {jump}, {}, nullptr).empty());
   EXPECT_EQ(judged_stretches({drive(4.0, 4.1, 9000.0)}, {jump}, {}, nullptr).size(), 1u);
@@ -138,7 +142,7 @@ TEST(SignalStretch, ATorqueOfADriveThatTheBalanceShowsIsNoSecondFault) {
   const ExplainedLog out = explained(pushed(43), {drive(4.0, 4.3)});
   EXPECT_TRUE(out.faults.empty());
   ASSERT_EQ(out.stretches.size(), 1u);
-  EXPECT_EQ(out.stretches[0].fault.label(), (FaultLabel{FaultKind::unknown, 1}));
+  EXPECT_EQ(out.stretches[0].fault.label(), (FaultLabel{FaultKind::unknown, 1_joint}));
   EXPECT_GT(out.stretches[0].in_balance, 50.0) << "both rows show it";
 }
 
@@ -149,17 +153,17 @@ TEST(SignalStretch, AFurtherFaultIsFoundBesideADriveThatLasts) {
     const ExplainedLog out = explained(std::move(log), {drive(4.0, end_s)});
     ASSERT_EQ(out.stretches.size(), 1u);
     ASSERT_EQ(out.faults.size(), 1u);
-    EXPECT_EQ(out.faults[0].label(), (FaultLabel{FaultKind::sensor_bias, 2}));
+    EXPECT_EQ(out.faults[0].label(), (FaultLabel{FaultKind::sensor_bias, 2_joint}));
     EXPECT_NEAR(out.faults[0].claim.onset_s, 6.0, 0.02);
   }
 }
 
 TEST(SignalStretch, AFaultIsFoundWhileAControlLawDoesNotHold) {
-  const ExplainedLog out = explained(with_loss(healthy(45), 1, 0.4, 5.0), {law(3.0, kNeverEnds)});
+  const ExplainedLog out = explained(with_loss(healthy(45), 1_joint, 0.4, 5.0), {law(3.0, kNeverEnds)});
   ASSERT_EQ(out.stretches.size(), 1u);
-  EXPECT_EQ(out.stretches[0].fault.label(), (FaultLabel{FaultKind::unknown, 2}));
+  EXPECT_EQ(out.stretches[0].fault.label(), (FaultLabel{FaultKind::unknown, 2_joint}));
   ASSERT_EQ(out.faults.size(), 1u);
-  EXPECT_EQ(out.faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1}));
+  EXPECT_EQ(out.faults[0].label(), (FaultLabel{FaultKind::torque_loss, 1_joint}));
 }
 
 /// A stretch in which a drive loses 30 %.
@@ -171,8 +175,8 @@ SignalStretch loss(double onset_s, double end_s) {
 }
 
 TEST(SignalStretch, ALossThatTheSignalsShowInPartsIsOne) {
-  const LogFit lasts = fit_of(with_loss(healthy(47), 1, 0.3, 3.0)),
-               twice = fit_of(with_loss(with_loss(healthy(47), 1, 0.3, 3.0, 4.0), 1, 0.3, 6.0));
+  const LogFit lasts = fit_of(with_loss(healthy(47), 1_joint, 0.3, 3.0)),
+               twice = fit_of(with_loss(with_loss(healthy(47), 1_joint, 0.3, 3.0, 4.0), 1_joint, 0.3, 6.0));
   const auto one = judged_stretches({loss(3.0, 4.0), loss(6.0, kNeverEnds)}, {}, {}, &lasts);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].fault.claim.end_s, kNeverEnds);
@@ -184,7 +188,7 @@ TEST(SignalStretch, ALossThatTheSignalsShowInPartsIsOne) {
 
 TEST(SignalStretch, OnlyFaultsThatTheTorqueBalanceShowsAreInIt) {
   SignalStretch lost = loss(3.0, kNeverEnds);
-  const LogFit loses = fit_of(with_loss(healthy(48), 1, 0.3, 3.0));
+  const LogFit loses = fit_of(with_loss(healthy(48), 1_joint, 0.3, 3.0));
   EXPECT_EQ(balance_claims({judge_stretch(lost, &loses)}).size(), 1u);
   lost.balance_is_of_command = false;
   const LogFit is_healthy = fit_of(healthy(48));

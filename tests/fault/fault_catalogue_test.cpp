@@ -41,7 +41,7 @@ TEST(FaultCatalogue, WhatIsHiddenByTheTorqueChangesTheMotion) {
 }
 
 std::string said(FaultKind kind, double first, double second, bool turns) {
-  return size_text({kind, 2}, {first, second}, turns);
+  return size_text({kind, 2_joint}, {first, second}, turns);
 }
 
 TEST(SizeText, SaysSizesInTheUnitsOfTheJoint) {
@@ -71,20 +71,20 @@ TEST(UnitOf, ATurningJointHasAnglesAndASlidingOneLengths) {
 }
 
 TEST(FaultLabels, AreEachKindAtEachJointAndThePayloadOfTheLinksWhereItShows) {
-  const auto labels = fault_labels(3, {0, 2}, false);
+  const auto labels = fault_labels(3, {1_joint, 3_joint}, false);
   EXPECT_EQ(labels.size(), 9u * 3u + 2u);
   const auto count = [&](FaultKind kind) {
     return std::count_if(labels.begin(), labels.end(), [&](const FaultLabel& l) { return l.kind == kind; });
   };
   EXPECT_EQ(count(FaultKind::locked), 3);
   EXPECT_EQ(count(FaultKind::payload_change), 2);
-  EXPECT_TRUE(std::count(labels.begin(), labels.end(), FaultLabel{FaultKind::payload_change, 1}) == 1 &&
-              std::count(labels.begin(), labels.end(), FaultLabel{FaultKind::payload_change, 3}) == 1);
+  EXPECT_TRUE(std::count(labels.begin(), labels.end(), FaultLabel{FaultKind::payload_change, 1_joint}) == 1 &&
+              std::count(labels.begin(), labels.end(), FaultLabel{FaultKind::payload_change, 3_joint}) == 1);
   EXPECT_EQ(count(FaultKind::none) + count(FaultKind::unknown), 0);
 }
 
 TEST(FaultLabels, ATorqueMeasuredBehindTheDriveHidesItsLoss) {
-  for (const FaultLabel& label : fault_labels(3, {2}, true)) {
+  for (const FaultLabel& label : fault_labels(3, {3_joint}, true)) {
     EXPECT_NE(label.kind, FaultKind::torque_loss);
     EXPECT_NE(label.kind, FaultKind::free_swinging);
   }

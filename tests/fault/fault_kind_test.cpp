@@ -7,9 +7,9 @@ namespace faultline {
 namespace {
 
 TEST(LabelText, NamesTheJointOnlyWhenThereIsOne) {
-  EXPECT_EQ(label_text({FaultKind::torque_loss, 2}), "torque_loss 2");
-  EXPECT_EQ(label_text({FaultKind::torque_loss, 2}, " at joint "), "torque_loss at joint 2");
-  EXPECT_EQ(label_text({FaultKind::unknown, 0}, " at joint "), "unknown");
+  EXPECT_EQ(label_text({FaultKind::torque_loss, 2_joint}), "torque_loss 2");
+  EXPECT_EQ(label_text({FaultKind::torque_loss, 2_joint}, " at joint "), "torque_loss at joint 2");
+  EXPECT_EQ(label_text({FaultKind::unknown, Joint()}, " at joint "), "unknown");
 }
 
 }  // namespace

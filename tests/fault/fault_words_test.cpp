@@ -11,7 +11,7 @@ namespace {
 TEST(FaultWords, EveryKindHasItsOwnWordsAndCheck) {
   std::set<std::string> names, checks;
   for (int kind = 0; kind < kFaultKinds; ++kind) {
-    const FaultLabel label{static_cast<FaultKind>(kind), 3};
+    const FaultLabel label{static_cast<FaultKind>(kind), 3_joint};
     names.insert(describe(label.kind).heading);
     checks.insert(next_check_for(label));
     const char* place = label.kind == FaultKind::payload_change ? "link 3 " : "joint 3 ";
@@ -23,8 +23,8 @@ TEST(FaultWords, EveryKindHasItsOwnWordsAndCheck) {
 }
 
 TEST(FaultWords, ALoadIsOfALinkAndEveryOtherFaultOfAJoint) {
-  EXPECT_EQ(plain_words({FaultKind::payload_change, 2}), "link 2 carries another load");
-  EXPECT_EQ(plain_words({FaultKind::locked, 2}), "joint 2 is locked");
+  EXPECT_EQ(plain_words({FaultKind::payload_change, 2_joint}), "link 2 carries another load");
+  EXPECT_EQ(plain_words({FaultKind::locked, 2_joint}), "joint 2 is locked");
 }
 
 }  // namespace

@@ -14,9 +14,9 @@ Observation example() {
   Observation o;
   o.verdict = "faulty";
   o.rows = 4;
-  o.events = {{{{FaultKind::locked, 2}, 1.0, 1.1, 2.0, 0.9}},
-              {{{FaultKind::collision, 1}, 3.0, 3.1, 3.2, 0.8}}};
-  o.residuals = {{1, 1.0, 4.0, 1.5, 1.2}, {2, kNan, kNan, kNan, kNan}};
+  o.events = {{{{FaultKind::locked, 2_joint}, 1.0, 1.1, 2.0, 0.9}},
+              {{{FaultKind::collision, 1_joint}, 3.0, 3.1, 3.2, 0.8}}};
+  o.residuals = {{1_joint, 1.0, 4.0, 1.5, 1.2}, {2_joint, kNan, kNan, kNan, kNan}};
   o.trace = {{"q1", "dq1"}, {0.1, 0.2, 0.3}, {{1.0, 2.0, kNan}, {0.5, 0.5, 0.5}}};
   return o;
 }
@@ -90,7 +90,7 @@ TEST(GoldenComparison, TheFirstDivergenceIsTheEarliest) {
 
 TEST(GoldenComparison, MissingAndUnexpectedEventsAndAChangedTime) {
   Observation actual = example();
-  actual.events[0].label.joint = 3;
+  actual.events[0].label.joint = 3_joint;
   actual.events[1].alarm_s = 3.15;
   const Comparison found = compare(example(), actual, none());
   ASSERT_EQ(found.differences.size(), 3u);
@@ -163,7 +163,7 @@ TEST(CompareGolden, ValuesOfAModelAreComparedByNameAndFamily) {
 }
 
 ObservedEvent locked(double onset_s) {
-  return {{{FaultKind::locked, 2}, onset_s, onset_s + 0.1, onset_s + 1.0, 0.9}};
+  return {{{FaultKind::locked, 2_joint}, onset_s, onset_s + 0.1, onset_s + 1.0, 0.9}};
 }
 
 Comparison compared(const std::vector<ObservedEvent>& expected, const std::vector<ObservedEvent>& actual,
@@ -230,9 +230,9 @@ TEST(CompareEvents, WhatAnEventRestsOnIsCompared) {
   expected = actual;
   actual.evidence = 40.0;
   actual.decided_by = "cases";
-  actual.opinions.mlp.label = {FaultKind::locked, 3};
+  actual.opinions.mlp.label = {FaultKind::locked, 3_joint};
   actual.opinions.rbfn.confidence = 0.4;
-  actual.could_also_be = {{FaultKind::friction_increase, 2}};
+  actual.could_also_be = {{FaultKind::friction_increase, 2_joint}};
   const Comparison comparison = compared({expected}, {actual});
   std::vector<std::string> channels;
   for (const Difference& difference : comparison.differences) channels.push_back(difference.channel);

@@ -27,14 +27,14 @@ GoldenSet example() {
   log.trace = {"traces/a-1.csv", "dd"};
   log.expected.verdict = "faulty";
   log.expected.rows = 10;
-  ObservedEvent event{{{FaultKind::locked, 2}, 1763710000.123456, kNan, INFINITY, 0.9}};
+  ObservedEvent event{{{FaultKind::locked, 2_joint}, 1763710000.123456, kNan, INFINITY, 0.9}};
   log.expected.events.push_back(event);
   event.evidence = 123.5;
   event.decided_by = "cases";
-  event.opinions = {{{FaultKind::locked, 2}, 0.75}, {{FaultKind::collision, 1}, 0.5}};
-  event.could_also_be = {{FaultKind::torque_loss, 2}, {FaultKind::payload_change, 0}};
+  event.opinions = {{{FaultKind::locked, 2_joint}, 0.75}, {{FaultKind::collision, 1_joint}, 0.5}};
+  event.could_also_be = {{FaultKind::torque_loss, 2_joint}, {FaultKind::payload_change, Joint()}};
   log.expected.events.push_back(event);
-  log.expected.residuals = {{1, 1.25, 2.5, 3.5, kNan}, {2, kNan, kNan, kNan, kNan}};
+  log.expected.residuals = {{1_joint, 1.25, 2.5, 3.5, kNan}, {2_joint, kNan, kNan, kNan, kNan}};
   log.tolerances.length_may_differ = true;
   set.logs = {log};
   set.identification = GoldenIdentification{{log.name()},
@@ -54,8 +54,8 @@ TEST(GoldenSet, ComesBackFromItsTextAsItWas) {
   EXPECT_TRUE(std::isinf(log.expected.events[0].end_s));
   const ObservedEvent& event = log.expected.events.at(1);
   EXPECT_EQ(event.evidence, 123.5);
-  EXPECT_EQ(event.opinions.rbfn, (Opinion{{FaultKind::collision, 1}, 0.5}));
-  EXPECT_EQ(event.could_also_be.at(1), (FaultLabel{FaultKind::payload_change, 0}));
+  EXPECT_EQ(event.opinions.rbfn, (Opinion{{FaultKind::collision, 1_joint}, 0.5}));
+  EXPECT_EQ(event.could_also_be.at(1), (FaultLabel{FaultKind::payload_change, Joint()}));
   EXPECT_EQ(read.model_values.at(1).value, 18.0);
   EXPECT_EQ(read.model_name, "a \"quoted\" \\ name");
   EXPECT_EQ(read.identification->tolerances.by_channel.at("l1 m2").absolute, 0.1);

@@ -76,7 +76,7 @@ TEST(ExtraTerms, RippleIsFoundWithItsRateAndSize) {
   const Identification id = identified(scara, kDuration_s);
   ASSERT_EQ(id.robot.chain.ripples.size(), 1U);
   const Ripple& r = id.robot.chain.ripples[0];
-  EXPECT_EQ(r.joint, 1);
+  EXPECT_EQ(r.joint, 2_joint);
   EXPECT_NEAR(r.rate, 25.0, 0.05);
   EXPECT_NEAR(r.sine, 0.6 * std::cos(0.6), 0.02);
   EXPECT_NEAR(r.cosine, 0.6 * std::sin(0.6), 0.02);

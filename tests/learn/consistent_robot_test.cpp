@@ -32,7 +32,7 @@ struct Given {
 };
 
 SimulatedFault weak_drive() {
-  return {FaultKind::torque_loss, 1, 7.0, std::numeric_limits<double>::infinity(), 0.4, 0.0};
+  return {FaultKind::torque_loss, 1_joint, 7.0, std::numeric_limits<double>::infinity(), 0.4, 0.0};
 }
 
 TEST(ConsistentRobot, ALogWithAFaultAmongHealthyOnesIsNamedAndLeftOut) {

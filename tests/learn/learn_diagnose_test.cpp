@@ -15,7 +15,7 @@ namespace {
 Log run_with(FaultKind kind, double size, std::uint64_t seed = 31) {
   SimulationSpec spec = small_run(7.0);
   if (kind != FaultKind::none)
-    spec.faults = {{kind, 1, 3.004, std::numeric_limits<double>::infinity(), size, 0.0}};
+    spec.faults = {{kind, 1_joint, 3.004, std::numeric_limits<double>::infinity(), size, 0.0}};
   return simulate(small_robot(), spec, seed).log;
 }
 

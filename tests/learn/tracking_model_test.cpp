@@ -54,7 +54,7 @@ TEST(TrackingModel, AStallIsALockedJointOnce) {
       diagnosed(SteppedJoint{.stall_from_s = 9.0, .stall_to_s = 10.0, .seed = 5}.log(20.0));
   ASSERT_EQ(diagnosis.faults.size(), 1u);
   const FaultFinding& fault = diagnosis.faults[0];
-  EXPECT_EQ(fault.label, (FaultLabel{FaultKind::locked, 1}));
+  EXPECT_EQ(fault.label, (FaultLabel{FaultKind::locked, 1_joint}));
   EXPECT_EQ(fault.decided_by, DecidedBy::tracking);
   EXPECT_NEAR(fault.onset_s, 9.0, 0.15);
   EXPECT_LT(fault.end_s, 12.5);
@@ -95,7 +95,7 @@ TEST(TrackingModel, AJointThatStandsForTheWholeLogWhileItsReferenceMovesIsLocked
   const Diagnosis diagnosis = diagnosed(log);
   EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
   ASSERT_FALSE(diagnosis.faults.empty());
-  EXPECT_EQ(diagnosis.faults[0].label, (FaultLabel{FaultKind::locked, 1}));
+  EXPECT_EQ(diagnosis.faults[0].label, (FaultLabel{FaultKind::locked, 1_joint}));
   EXPECT_LT(diagnosis.faults[0].alarm_s, 2.0);
 }
 

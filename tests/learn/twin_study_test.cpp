@@ -24,7 +24,7 @@ TEST(TwinStudy, RunsOfTheTwinAreExplainedWithRigidGears) {
   EXPECT_EQ(rows.theta, soft.theta);
 }
 
-constexpr FaultLabel kLoss{FaultKind::torque_loss, 1};
+constexpr FaultLabel kLoss{FaultKind::torque_loss, 1_joint};
 
 MonitoredRun run(const FaultLabel& label, double size, bool found) {
   MonitoredRun out;
@@ -71,7 +71,7 @@ TEST(Detectability, AnAlarmBeforeTheOnsetFindsNothing) {
 }
 
 TEST(Detectability, AKindWithoutASizeIsCounted) {
-  const FaultLabel locked{FaultKind::locked, 2};
+  const FaultLabel locked{FaultKind::locked, 2_joint};
   const std::vector<Detectability> reach =
       detectability_of(std::vector<MonitoredRun>{run(locked, std::nan(""), true)}, {});
   EXPECT_EQ(reach[0].found, 1);

@@ -79,7 +79,7 @@ TEST(TwinRun, TheOnsetLiesInTheMiddleOfTheRun) {
     const double share = run.onset_s / twin_run_length_s(world.twin);
     earliest = std::min(earliest, share);
     latest = std::max(latest, share);
-    EXPECT_EQ(run.label, (FaultLabel{FaultKind::torque_loss, 1}));
+    EXPECT_EQ(run.label, (FaultLabel{FaultKind::torque_loss, 1_joint}));
     EXPECT_GE(run.log.time.back(), run.onset_s + 0.03) << "the fault is in the log";
   }
   EXPECT_GE(earliest, 0.25);
@@ -227,7 +227,8 @@ TEST(TwinRun, SomePushesReachASecondJoint) {
   int reached = 0, alike = 0;
   constexpr int kRuns = 24;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
-    const TwinRun pushed = world.run(FaultKind::collision, seed, 1), calm = world.run(FaultKind::none, seed);
+    const TwinRun pushed = world.run(FaultKind::collision, seed, 1_joint),
+                  calm = world.run(FaultKind::none, seed);
     const int row = row_at(pushed.log, pushed.onset_s) + 1;
     if (pushed.log.q[2][row - 2] != calm.log.q[2][row - 2])
       continue;  // a controller drawn anew for one of them

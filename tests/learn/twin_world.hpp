@@ -50,8 +50,8 @@ struct TwinWorld {
   }
   TwinWorld(const TwinWorld&) = delete;
 
-  TwinRun run(FaultKind kind, std::uint64_t seed, int joint = 1) const {
-    return twin_run(twin, {kind, kind == FaultKind::none ? 0 : joint}, seed);
+  TwinRun run(FaultKind kind, std::uint64_t seed, Joint joint = 1_joint) const {
+    return twin_run(twin, {kind, kind == FaultKind::none ? Joint() : joint}, seed);
   }
   double range(int j = 0) const { return motion.q_high[j] - motion.q_low[j]; }
 };

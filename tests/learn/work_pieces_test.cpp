@@ -20,7 +20,7 @@ struct Carried {
 };
 
 SimulationSpec carrying(SimulationSpec spec, const std::vector<Carried>& pieces) {
-  const int joint = static_cast<int>(spec.noise.q.size());
+  const Joint joint = Joint::at(static_cast<int>(spec.noise.q.size()) - 1);
   for (const Carried& piece : pieces)
     spec.faults.push_back({FaultKind::payload_change, joint, piece.from_s, piece.to_s, kPiece_kg, 0.0});
   return spec;

@@ -227,11 +227,11 @@ TEST(ColumnMatching, JointsNamedByWordsAreJointsInTheirOrder) {
       if (source.channel == channel) return source.column;
     return -1;
   };
-  EXPECT_EQ(column_of({Quantity::q, 2}), 2);
-  EXPECT_EQ(column_of({Quantity::tau, 1}), 4);
-  EXPECT_EQ(column_of({Quantity::tau, 2}), 3);
-  EXPECT_EQ(column_of({Quantity::dq, 1}), -1);
-  EXPECT_EQ(column_of({Quantity::dq, 2}), 5);
+  EXPECT_EQ(column_of({Quantity::q, 2_joint}), 2);
+  EXPECT_EQ(column_of({Quantity::tau, 1_joint}), 4);
+  EXPECT_EQ(column_of({Quantity::tau, 2_joint}), 3);
+  EXPECT_EQ(column_of({Quantity::dq, 1_joint}), -1);
+  EXPECT_EQ(column_of({Quantity::dq, 2_joint}), 5);
   EXPECT_NE(matching.issues.find("joint_order"), nullptr);
 }
 
@@ -243,8 +243,8 @@ TEST(ColumnMatching, JointsOfAMergedRecordingKeepTheirSignalsTogether) {
   const Matching matching = match_columns(columns, {}, "log");
   EXPECT_EQ(matching.joints, 4);
   for (const ChannelSource& source : matching.channels) {
-    if (source.channel.joint == 0) continue;
-    EXPECT_EQ((source.column - 1) / 3 + 1, source.channel.joint);
+    if (source.channel.joint.is_none()) continue;
+    EXPECT_EQ((source.column - 1) / 3, source.channel.joint.index());
   }
 }
 

@@ -21,7 +21,7 @@ std::string report(const std::string& features) {
 
 TEST(CaseFromJson, AFindingOfItsSignalsAloneIsACaseWithoutFeatures) {
   const Case c = case_from_json(report("{}"), "run.json", 1, {"strength", "length"});
-  EXPECT_EQ(c.label, (FaultLabel{FaultKind::unknown, 1}));
+  EXPECT_EQ(c.label, (FaultLabel{FaultKind::unknown, 1_joint}));
   EXPECT_EQ(c.onset_s, 1.5);
   EXPECT_EQ(c.robot, "arm");
   ASSERT_EQ(c.episode.features.size(), 2u);

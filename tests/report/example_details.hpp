@@ -40,7 +40,7 @@ inline ReportDetails example_details(const Diagnosis& d) {
     CurveWindow detail =
         example_window(fault.id, std::max(fault.onset_s - 1.0, d.log.start_s), fault.onset_s + 2.0, 300);
     detail.networks = {{fault.label, example_envelope(300, 0.0), example_envelope(300, 0.2)},
-                       {{FaultKind::none, 0}, example_envelope(300, 1.0), example_envelope(300, 1.2)}};
+                       {{FaultKind::none, Joint()}, example_envelope(300, 1.0), example_envelope(300, 1.2)}};
     curves.details.push_back(detail);
   }
   curves.healthy_residual = {5.0, 6.0, 4.0};
@@ -57,7 +57,7 @@ inline ReportDetails example_details(const Diagnosis& d) {
 inline Diagnosis traced_diagnosis() {
   Diagnosis d = faulty_diagnosis();
   EvidenceTrace& trace = d.faults[0].trace;
-  EvidenceCurve locked{{FaultKind::locked, 2}, {}}, stuck{{FaultKind::stuck_encoder, 2}, {}};
+  EvidenceCurve locked{{FaultKind::locked, 2_joint}, {}}, stuck{{FaultKind::stuck_encoder, 2_joint}, {}};
   for (int i = 0; i < 100; ++i) {
     trace.time.push_back(4.21 + 0.005 * i);
     locked.ratio.push_back(3.0 * i);

@@ -22,21 +22,21 @@ inline Diagnosis healthy_diagnosis() {
   d.model = {"bench", std::string(64, 'b'), std::string(64, 'c')};
   d.program_version = "0.1.0";
   d.verdict = Verdict::healthy;
-  for (int joint = 1; joint <= 3; ++joint)
-    d.residuals.push_back({.joint = joint,
-                           .velocity_rms = 0.97 + 0.01 * joint,
-                           .velocity_peak = 3.5 + joint,
-                           .velocity_peak_s = 1.25 * joint,
+  for (int number = 1; number <= 3; ++number)
+    d.residuals.push_back({.joint = Joint::numbered(number),
+                           .velocity_rms = 0.97 + 0.01 * number,
+                           .velocity_peak = 3.5 + number,
+                           .velocity_peak_s = 1.25 * number,
                            .position_rms = 1.0});
-  d.condition = {{"friction_1", "friction of joint 1", 1, 12.25, {11.0, 13.5}, 30.0, "%"},
-                 {"torque_offset_1", "torque offset of joint 1", 1, 0.5, {-2.0, 3.0}, 1.0, "N m"},
-                 {"tip_mass", "mass at the tip", 0, -0.125, {-0.15, -0.1}, 0.05, "kg"}};
+  d.condition = {{"friction_1", "friction of joint 1", 1_joint, 12.25, {11.0, 13.5}, 30.0, "%"},
+                 {"torque_offset_1", "torque offset of joint 1", 1_joint, 0.5, {-2.0, 3.0}, 1.0, "N m"},
+                 {"tip_mass", "mass at the tip", Joint(), -0.125, {-0.15, -0.1}, 0.05, "kg"}};
   return d;
 }
 
 /// One confirmed in the field, and a simulated one that is more like it.
 inline std::vector<Precedent> example_precedents() {
-  const FaultLabel locked{FaultKind::locked, 2};
+  const FaultLabel locked{FaultKind::locked, 2_joint};
   Precedent field{
       .case_id = 31, .label = locked, .similarity = 0.71, .what_was_done = "changed the brake relay"};
   field.origin = CaseOrigin::field;
@@ -55,7 +55,7 @@ inline std::vector<Precedent> example_precedents() {
 
 inline FaultFinding locked_joint() {
   FaultFinding f;
-  f.label = {FaultKind::locked, 2};
+  f.label = {FaultKind::locked, 2_joint};
   f.onset_s = 4.21;
   f.alarm_s = 4.217;
   f.end_s = 9.999;
@@ -65,7 +65,7 @@ inline FaultFinding locked_joint() {
   f.decided_by = DecidedBy::agreement;
   f.precedents = example_precedents();
   f.could_also_be = {
-      {{FaultKind::stuck_encoder, 2},
+      {{FaultKind::stuck_encoder, 2_joint},
        "both show a position that does not change; only exactly repeated encoder codes and the "
        "motion of the other joints distinguish them"}};
   f.evidence = {{"log_likelihood_ratio", 312.4, "", "log likelihood of this fault over none"},
@@ -102,16 +102,16 @@ inline Diagnosis hostile_diagnosis() {
   Diagnosis d = faulty_diagnosis();
   d.log.path = "a,\"b\"\n<c>&'\x1b[31m\xff.csv";
   FaultFinding f;
-  f.label = {FaultKind::unknown, 0};
+  f.label = {FaultKind::unknown, Joint()};
   f.onset_s = 2.0;
   f.alarm_s = 2.5;
-  f.mlp = {{FaultKind::collision, 1}, 0.55};
-  f.rbfn = {{FaultKind::payload_change, 0}, 0.4};
+  f.mlp = {{FaultKind::collision, 1_joint}, 0.55};
+  f.rbfn = {{FaultKind::payload_change, Joint()}, 0.4};
   f.decided_by = DecidedBy::cases;
-  f.precedents = {{7, {FaultKind::collision, 1}, 0.41, "]]> \"done\"\x07\nnext line"}};
+  f.precedents = {{7, {FaultKind::collision, 1_joint}, 0.41, "]]> \"done\"\x07\nnext line"}};
   f.precedents[0].origin_text = "confirmed in the field by <b>|\x1b[31m\nA. & B.</b>";
   f.precedents[0].alike = {{"a", "<i>|x|\x07", "\"m\"", 1.0, 2.0, 0.5}};
-  f.could_also_be = {{{FaultKind::collision, 1}, "named by the MLP"}};
+  f.could_also_be = {{{FaultKind::collision, 1_joint}, "named by the MLP"}};
   f.next_check = next_check_for(f.label);
   d.faults.push_back(f);
   d.faults = numbered_by_onset(std::move(d.faults));

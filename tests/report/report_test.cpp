@@ -28,7 +28,7 @@ const std::vector<Diagnosis (*)()> kExamples = {healthy_diagnosis, faulty_diagno
 TEST(SmallChanges, AChangeTooSmallToBeReportedAsAFaultIsInTextMarkdownHtmlAndJson) {
   Diagnosis d = healthy_diagnosis();
   FaultFinding gram;
-  gram.label = {FaultKind::payload_change, 3};
+  gram.label = {FaultKind::payload_change, 3_joint};
   gram.onset_s = 4.2;
   gram.confidence = 0.98;
   gram.extent = {0.0014, 0.06, "kg", 0.0014 / 0.06};

@@ -13,7 +13,7 @@ namespace {
 /// Half of joint 1's torque is lost.
 Diagnosis lost_torque() {
   Diagnosis d = faulty_diagnosis();
-  d.faults[0].label = {FaultKind::torque_loss, 1};
+  d.faults[0].label = {FaultKind::torque_loss, 1_joint};
   d.faults[0].evidence.push_back({.name = "size", .unit = {}, .text = "about 50 % of the torque is lost"});
   return d;
 }

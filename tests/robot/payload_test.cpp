@@ -10,7 +10,7 @@
 namespace faultline {
 namespace {
 
-using Links = std::vector<int>;
+using Links = std::vector<Joint>;
 
 TEST(Payload, AddsTheForceThatItsWeightAndAccelerationTakeAtItsPlace) {
   const Chain chain = preset_robot("RR").chain;  // in a horizontal plane, links of 1 m
@@ -43,14 +43,14 @@ TEST(Payload, OfTheLastLinkSitsAtTheTip) {
 }
 
 TEST(PayloadLinks, AreAllThatAScaraShows) {
-  EXPECT_EQ(payload_links(preset_robot("RRP").chain), (Links{0, 1, 2}));
+  EXPECT_EQ(payload_links(preset_robot("RRP").chain), (Links{1_joint, 2_joint, 3_joint}));
 }
 
 TEST(PayloadLinks, OfTwoEndsThatAreOnePointTheLaterOneCounts) {
   Chain chain = preset_robot("RRR").chain;
   chain.geometry[2].axis = Eigen::Vector3d::UnitX();
   chain.length[2] = 0.0;  // the tip stays where joint 3 is
-  EXPECT_EQ(payload_links(chain), (Links{0, 2}));
+  EXPECT_EQ(payload_links(chain), (Links{1_joint, 3_joint}));
 }
 
 TEST(PayloadLinks, ALinkThatEndsOnItsAxisShowsNone) {
@@ -58,7 +58,7 @@ TEST(PayloadLinks, ALinkThatEndsOnItsAxisShowsNone) {
   chain.length[0] = 0.0;
   chain.geometry[1].axis = Eigen::Vector3d::UnitY();
   chain.geometry[1].offset = {0.0, 0.0, 0.4};  // above the first joint
-  EXPECT_EQ(payload_links(chain), (Links{1, 2}));
+  EXPECT_EQ(payload_links(chain), (Links{2_joint, 3_joint}));
 }
 
 }  // namespace

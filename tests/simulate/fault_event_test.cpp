@@ -23,7 +23,7 @@ TEST(MachineFault, DoesToTheMachineWhatTheCatalogueSays) {
   for (int k = 0; k < static_cast<int>(FaultKind::unknown); ++k) {
     const FaultDescription& kind = describe(static_cast<FaultKind>(k));
     const MachineFault fault =
-        machine_fault({.kind = kind.kind, .joint = 1, .onset_s = 1.0, .size = 0.5, .viscous = 0.25});
+        machine_fault({.kind = kind.kind, .joint = 1_joint, .onset_s = 1.0, .size = 0.5, .viscous = 0.25});
     EXPECT_EQ(changes_motion(fault), kind.acts_on == FaultActsOn::motion) << kind.name;
     EXPECT_EQ(changes_readings(fault), kind.acts_on == FaultActsOn::sensor) << kind.name;
   }
@@ -32,27 +32,27 @@ TEST(MachineFault, DoesToTheMachineWhatTheCatalogueSays) {
 TEST(CheckFault, APayloadNeedsALinkThatKeepsMass) {
   const Robot robot = known_rrp();
   const double mass = robot.chain.links[1].mass;
-  const auto payload = [](int link, double kg) {
+  const auto payload = [](Joint link, double kg) {
     return SimulatedFault{.kind = FaultKind::payload_change, .joint = link, .onset_s = 1.0, .size = kg};
   };
-  EXPECT_NO_THROW(check_fault(robot, payload(2, -0.9 * mass)));
-  EXPECT_THROW(check_fault(robot, payload(2, -1.1 * mass)), Error);
-  EXPECT_NO_THROW(check_fault(robot, payload(0, 0.5))) << "the last link";
-  EXPECT_THROW(check_fault(robot, payload(4, 0.5)), Error);
+  EXPECT_NO_THROW(check_fault(robot, payload(2_joint, -0.9 * mass)));
+  EXPECT_THROW(check_fault(robot, payload(2_joint, -1.1 * mass)), Error);
+  EXPECT_NO_THROW(check_fault(robot, payload(Joint(), 0.5))) << "the last link";
+  EXPECT_THROW(check_fault(robot, payload(4_joint, 0.5)), Error);
 }
 
 TEST(SizeUnit, IsThatOfTheJoint) {
   const Robot robot = known_rrp();
-  auto unit = [&](FaultKind kind, int joint) { return size_unit(robot, {.kind = kind, .joint = joint}); };
-  EXPECT_EQ(unit(FaultKind::torque_loss, 1), "1");
-  EXPECT_EQ(unit(FaultKind::sensor_bias, 1), "rad");
-  EXPECT_EQ(unit(FaultKind::sensor_bias, 3), "m");
-  EXPECT_EQ(unit(FaultKind::sensor_drift, 3), "m/s");
-  EXPECT_EQ(unit(FaultKind::friction_increase, 1), "N m") << "its size is the Coulomb friction";
-  EXPECT_EQ(unit(FaultKind::collision, 3), "N");
-  EXPECT_EQ(unit(FaultKind::payload_change, 0), "kg");
-  EXPECT_EQ(unit(FaultKind::locked, 1), "");
-  EXPECT_EQ(unit(FaultKind::collision, 9), "");
+  auto unit = [&](FaultKind kind, Joint joint) { return size_unit(robot, {.kind = kind, .joint = joint}); };
+  EXPECT_EQ(unit(FaultKind::torque_loss, 1_joint), "1");
+  EXPECT_EQ(unit(FaultKind::sensor_bias, 1_joint), "rad");
+  EXPECT_EQ(unit(FaultKind::sensor_bias, 3_joint), "m");
+  EXPECT_EQ(unit(FaultKind::sensor_drift, 3_joint), "m/s");
+  EXPECT_EQ(unit(FaultKind::friction_increase, 1_joint), "N m") << "its size is the Coulomb friction";
+  EXPECT_EQ(unit(FaultKind::collision, 3_joint), "N");
+  EXPECT_EQ(unit(FaultKind::payload_change, Joint()), "kg");
+  EXPECT_EQ(unit(FaultKind::locked, 1_joint), "");
+  EXPECT_EQ(unit(FaultKind::collision, 9_joint), "");
 }
 
 }  // namespace

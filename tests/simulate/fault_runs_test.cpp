@@ -11,7 +11,7 @@ namespace {
 
 TEST(SimulateFaults, FreeSwingingJointGetsNoTorque) {
   const Robot robot = industrial();
-  const SimulatedRun run = simulate(robot, with_fault(FaultKind::free_swinging, 2, 1.0));
+  const SimulatedRun run = simulate(robot, with_fault(FaultKind::free_swinging, 2_joint, 1.0));
   for (int k = 1010; k < 1500; k += 70) {
     const auto needed = torque_needed(robot.chain, run.log, k);
     EXPECT_NEAR(needed[1], 0.0, 0.05);
@@ -24,7 +24,7 @@ TEST(SimulateFaults, FreeSwingingJointGetsNoTorque) {
 
 TEST(SimulateFaults, TorqueLossTakesItsShare) {
   const Robot robot = industrial();
-  const SimulatedRun run = simulate(robot, with_fault(FaultKind::torque_loss, 3, 1.0, 0.4));
+  const SimulatedRun run = simulate(robot, with_fault(FaultKind::torque_loss, 3_joint, 1.0, 0.4));
   for (int k = 1050; k < 2900; k += 185) {
     const double applied = 0.5 * (run.log.tau[2][k] + run.log.tau[2][k - 1]);
     EXPECT_NEAR(torque_needed(robot.chain, run.log, k)[2], 0.6 * applied, 0.1);
@@ -36,7 +36,7 @@ TEST(SimulateFaults, LockedJointStopsAtOnceAndMomentumPasses) {
   SimulationSpec spec = short_run();
   spec.motion.points = {{-1.0, -1.0, -0.2}, {1.0, 1.0, 0.0}};
   spec.motion.dwell_min_s = spec.motion.dwell_max_s = 0.2;
-  spec.faults = {{FaultKind::locked, 2, 0.8004, 2.0, 0.0, 0.0}};
+  spec.faults = {{FaultKind::locked, 2_joint, 0.8004, 2.0, 0.0, 0.0}};
   const SimulatedRun run = simulate(robot, spec);
   const auto before = row_of(run.log.dq, 800), after = row_of(run.log.dq, 801);
   ASSERT_GT(std::abs(before[1]), 0.5);
@@ -50,7 +50,7 @@ TEST(SimulateFaults, LockedJointStopsAtOnceAndMomentumPasses) {
 
 TEST(SimulateFaults, SensorFaultsGoThroughTheFeedback) {
   const Robot robot = industrial();
-  SimulationSpec spec = with_fault(FaultKind::sensor_bias, 1, 1.0, 0.02);
+  SimulationSpec spec = with_fault(FaultKind::sensor_bias, 1_joint, 1.0, 0.02);
   spec.motion.points = {{0.0, 0.0, 0.0}};
   const SimulatedRun run = simulate(robot, spec);
   EXPECT_NEAR(run.log.q[0][999], 0.0, 1e-6);
@@ -60,7 +60,7 @@ TEST(SimulateFaults, SensorFaultsGoThroughTheFeedback) {
 }
 
 TEST(SimulateFaults, StuckEncoderRepeatsItsReading) {
-  SimulationSpec spec = with_fault(FaultKind::stuck_encoder, 1, 1.0);
+  SimulationSpec spec = with_fault(FaultKind::stuck_encoder, 1_joint, 1.0);
   spec.noise.q = {1e-4, 1e-4, 2e-5};
   spec.noise.dq = {5e-3, 5e-3, 1e-3};
   spec.overspeed = {8.0, 8.0, 3.0};
@@ -74,7 +74,7 @@ TEST(SimulateFaults, StuckEncoderRepeatsItsReading) {
 }
 
 TEST(SimulateFaults, DriftGrowsWithTime) {
-  SimulationSpec spec = with_fault(FaultKind::sensor_drift, 2, 1.0, 0.05);
+  SimulationSpec spec = with_fault(FaultKind::sensor_drift, 2_joint, 1.0, 0.05);
   spec.motion.points = {{0.0, 0.0, 0.0}};
   spec.controller.bandwidth_rad_s = 1e-3;  // nobody follows the drift
   const SimulatedRun run = simulate(industrial(), spec);
@@ -83,7 +83,7 @@ TEST(SimulateFaults, DriftGrowsWithTime) {
 
 TEST(SimulateFaults, FrictionIncreaseAddsToTheTorque) {
   const Robot robot = industrial();
-  SimulationSpec spec = with_fault(FaultKind::friction_increase, 1, 0.8, 4.0);
+  SimulationSpec spec = with_fault(FaultKind::friction_increase, 1_joint, 0.8, 4.0);
   spec.faults[0].viscous = 1.5;
   spec.motion.points = {{-1.0, -1.0, -0.2}, {1.0, 1.0, 0.0}};
   const SimulatedRun run = simulate(robot, spec);
@@ -97,7 +97,7 @@ TEST(SimulateFaults, FrictionIncreaseAddsToTheTorque) {
 
 TEST(SimulateFaults, PayloadAddsMassAtTheTip) {
   const Robot robot = industrial();
-  const SimulatedRun run = simulate(robot, with_fault(FaultKind::payload_change, 3, 1.0, 1.0));
+  const SimulatedRun run = simulate(robot, with_fault(FaultKind::payload_change, 3_joint, 1.0, 1.0));
   Robot loaded = industrial();
   loaded = with_masses_and_lengths(loaded, {8.0, 5.0, 3.5}, {0.35, 0.3, 0.0});
   for (int k = 1100; k < 2900; k += 180) {
@@ -108,7 +108,7 @@ TEST(SimulateFaults, PayloadAddsMassAtTheTip) {
 
 TEST(SimulateFaults, CollisionIsAPulseOfExternalTorque) {
   const Robot robot = industrial();
-  SimulationSpec spec = with_fault(FaultKind::collision, 1, 1.0, 30.0);
+  SimulationSpec spec = with_fault(FaultKind::collision, 1_joint, 1.0, 30.0);
   spec.faults[0].end_s = 1.05;
   const SimulatedRun run = simulate(robot, spec);
   const auto missing = [&](int k) {

@@ -79,7 +79,7 @@ TEST(GearedRuns, TheEncoderReadsTheMotor) {
 TEST(GearedRuns, AFaultChangesNothingBeforeItsOnset) {
   SimulationSpec spec = sprung(2e4);
   const Log healthy = simulate(industrial(), spec, 2).log;
-  spec.faults = {{FaultKind::free_swinging, 2, 1.2345}};
+  spec.faults = {{FaultKind::free_swinging, 2_joint, 1.2345}};
   const Log faulty = simulate(industrial(), spec, 2).log;
   for (int k = 0; k <= 1234; ++k) ASSERT_EQ(healthy.q[1][k], faulty.q[1][k]) << k;
   EXPECT_NE(healthy.q[1][1300], faulty.q[1][1300]);

@@ -148,7 +148,7 @@ TEST(Gears, AnArmWithSomeSpringsKeepsItsEnergy) {
 
 TEST(Gears, ALockStopsTheMotorAndTheLinkSwingsOn) {
   const double speed = 1.0, onset_s = 0.1005, w = std::sqrt(kSpring / kRodInertia);
-  Plant plant(one_joint(), {}, {{FaultKind::locked, 1, onset_s, kEver}}, kTick_s, with_gears());
+  Plant plant(one_joint(), {}, {{FaultKind::locked, 1_joint, onset_s, kEver}}, kTick_s, with_gears());
   plant.start(one(0.0), one(speed));
   run(plant, 0, 100, 0.0);
   EXPECT_NEAR(twist(plant), 0.0, 1e-12);
@@ -164,12 +164,12 @@ TEST(Gears, ALockStopsTheMotorAndTheLinkSwingsOn) {
 
 TEST(Gears, APushMovesTheLinkAndAMissingTorqueTheMotor) {
   const double play = 0.01;
-  const SimulatedFault push{FaultKind::collision, 1, 0.0, 1.0, 3.0};
+  const SimulatedFault push{FaultKind::collision, 1_joint, 0.0, 1.0, 3.0};
   Plant pushed(one_joint(), {}, {push}, kTick_s, with_gears(play));
   run(pushed, 0, 10, 0.0);
   EXPECT_NEAR(pushed.dq[0], 3.0 / kRodInertia * 0.01, 1e-9);
   EXPECT_EQ(pushed.motor_dq()[0], 0.0);
-  const SimulatedFault misread{FaultKind::torque_sensor_error, 1, 0.0, kEver, 3.0};
+  const SimulatedFault misread{FaultKind::torque_sensor_error, 1_joint, 0.0, kEver, 3.0};
   Plant weak(one_joint(), {}, {misread}, kTick_s, with_gears(play));
   run(weak, 0, 10, 0.0);
   EXPECT_NEAR(weak.motor_dq()[0], -3.0 / kMotor * 0.01, 1e-9);

@@ -116,7 +116,7 @@ TEST(Recording, AFilteredVelocityIsLateByItsTimeConstant) {
 }
 
 TEST(Recording, OfARunChangesNoTruth) {
-  SimulationSpec spec = with_fault(FaultKind::torque_loss, 1, 1.0, 0.5);
+  SimulationSpec spec = with_fault(FaultKind::torque_loss, 1_joint, 1.0, 0.5);
   spec.noise.q_resolution = {1e-4, 1e-4, 1e-5};
   const SimulatedRun exact = simulate(industrial(), spec, 3);
   spec.recording = {.jitter_s = 1e-4, .lost = 0.05, .velocity = RecordedVelocity::difference};

@@ -24,7 +24,7 @@ inline SimulationSpec short_run(double duration_s = 3.0) {
   return spec;
 }
 
-inline SimulationSpec with_fault(FaultKind kind, int joint, double onset_s, double size = 0.0,
+inline SimulationSpec with_fault(FaultKind kind, Joint joint, double onset_s, double size = 0.0,
                                  double duration_s = 3.0) {
   SimulationSpec spec = short_run(duration_s);
   spec.faults = {{kind, joint, onset_s, std::numeric_limits<double>::infinity(), size, 0.0}};

@@ -45,7 +45,7 @@ TEST(Simulate, AFaultChangesNothingBeforeItsOnset) {
   SimulationSpec spec = short_run();
   spec.noise.q = {1e-4, 1e-4, 2e-5};
   const Log healthy = simulate(robot, spec, 2).log;
-  spec.faults = {{FaultKind::torque_loss, 1, 1.2345, 9.0, 0.5, 0.0}};
+  spec.faults = {{FaultKind::torque_loss, 1_joint, 1.2345, 9.0, 0.5, 0.0}};
   const Log faulty = simulate(robot, spec, 2).log;
   for (int k = 0; k <= 1234; ++k) ASSERT_EQ(healthy.q[0][k], faulty.q[0][k]) << k;
   EXPECT_NE(healthy.q[0][1300], faulty.q[0][1300]);
@@ -83,7 +83,7 @@ TEST(Simulate, TorqueLimitHolds) {
 }
 
 TEST(Simulate, AFreedVerticalJointRestsOnItsStop) {
-  SimulationSpec spec = with_fault(FaultKind::free_swinging, 3, 0.5);
+  SimulationSpec spec = with_fault(FaultKind::free_swinging, 3_joint, 0.5);
   spec.stops.low = {-3.0, -3.0, -0.4};
   spec.stops.high = {3.0, 3.0, 0.1};
   const SimulatedRun run = simulate(industrial(), spec);
@@ -93,7 +93,7 @@ TEST(Simulate, AFreedVerticalJointRestsOnItsStop) {
 }
 
 TEST(Simulate, OverspeedEndsTheLog) {
-  SimulationSpec spec = with_fault(FaultKind::free_swinging, 3, 0.5);
+  SimulationSpec spec = with_fault(FaultKind::free_swinging, 3_joint, 0.5);
   spec.overspeed = {20.0, 20.0, 0.5};
   const SimulatedRun run = simulate(industrial(), spec);
   EXPECT_EQ(run.end, EndReason::overspeed_trip);
@@ -201,10 +201,10 @@ TEST(Simulate, RefusesSpecsThatDoNotFit) {
   spec = short_run();
   spec.torque_limit = {1.0, 1.0};
   expect_refused(spec, "limits.torque");
-  expect_refused(with_fault(FaultKind::locked, 4, 1.0), "fault.joint");
-  expect_refused(with_fault(FaultKind::torque_loss, 1, 1.0, 1.5), "fault.size");
-  expect_refused(with_fault(FaultKind::collision, 1, 1.0, 5.0), "fault.end_s");
-  expect_refused(with_fault(FaultKind::payload_change, 3, 1.0, -9.0), "fault.size");
+  expect_refused(with_fault(FaultKind::locked, 4_joint, 1.0), "fault.joint");
+  expect_refused(with_fault(FaultKind::torque_loss, 1_joint, 1.0, 1.5), "fault.size");
+  expect_refused(with_fault(FaultKind::collision, 1_joint, 1.0, 5.0), "fault.end_s");
+  expect_refused(with_fault(FaultKind::payload_change, 3_joint, 1.0, -9.0), "fault.size");
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST(WorkPiece, AFaultBesideItStaysTheOnlyTruth) {
   RunSpec spec;
   spec.name = "carries";
   spec.simulation = carrying(4.0);
-  spec.simulation.faults = {{FaultKind::collision, 1, 2.0, 2.1, 20.0}};
+  spec.simulation.faults = {{FaultKind::collision, 1_joint, 2.0, 2.1, 20.0}};
   const SimulatedRun run = simulate(file.robot, spec.simulation);
   ASSERT_EQ(run.truth.size(), 1u);
   const std::string lines = label_lines(file, spec, run);

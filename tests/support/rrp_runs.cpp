@@ -24,7 +24,7 @@ SimulationSpec rrp_run(double duration_s) {
   return spec;
 }
 
-SimulationSpec rrp_run_with(FaultKind kind, int joint, double onset_s, double size, double length_s) {
+SimulationSpec rrp_run_with(FaultKind kind, Joint joint, double onset_s, double size, double length_s) {
   SimulationSpec spec = rrp_run(onset_s + 3.0);
   spec.faults = {{kind, joint, onset_s, onset_s + length_s, size, 0.0}};
   spec.overspeed = {12.0, 12.0, 4.0};

@@ -13,7 +13,7 @@ Robot known_rrp();
 SimulationSpec rrp_run(double duration_s);
 
 /// The same with one fault that stays, or that ends after `length_s`.
-SimulationSpec rrp_run_with(FaultKind kind, int joint, double onset_s, double size = 0.0,
+SimulationSpec rrp_run_with(FaultKind kind, Joint joint, double onset_s, double size = 0.0,
                             double length_s = 1e9);
 
 /// Its usual motion in two healthy simulated runs; the same object every time.

@@ -14,10 +14,10 @@ namespace faultline {
 struct MotionLayout {
   int base = 0, joints = 0;
 
-  int viscous(int joint) const { return base + joint; }
-  int coulomb(int joint) const { return base + joints + joint; }
-  int gain(int joint) const { return base + 2 * joints + joint; }
-  int force(int joint) const { return base + 3 * joints + joint; }
+  int viscous(int j) const { return base + j; }
+  int coulomb(int j) const { return base + joints + j; }
+  int gain(int j) const { return base + 2 * joints + j; }
+  int force(int j) const { return base + 3 * joints + j; }
   int count() const { return base + 4 * joints; }
   int learned() const { return gain(0); }  ///< number of those that belong to the robot, which come first
 };
@@ -63,7 +63,7 @@ class MotionLaw {
   MotionLaw(const MotionBody& body, const Eigen::VectorXd& numbers, unsigned locked = 0);
 
   int joints() const { return dynamics_.joints(); }
-  bool is_locked(int joint) const { return (locked_ >> joint & 1u) != 0; }
+  bool is_locked(int j) const { return (locked_ >> j & 1u) != 0; }
   const MotionBody& body() const { return *body_; }
   /// Writes the acceleration under the logged torque `tau` to `ddq`.
   void acceleration(const JointVector& q, const JointVector& dq, const JointVector& tau,

@@ -18,10 +18,10 @@ struct StepDayLayout {
   int base = 0, joints = 0;
 
   int inertia(int parameter) const { return parameter; }
-  int friction(int joint) const { return base + joint; }
-  int force(int joint) const { return base + joints + joint; }
-  int gain(int joint) const { return base + 2 * joints + joint; }
-  int viscous_excess(int joint) const { return base + 3 * joints + joint; }
+  int friction(int j) const { return base + j; }
+  int force(int j) const { return base + joints + j; }
+  int gain(int j) const { return base + 2 * joints + j; }
+  int viscous_excess(int j) const { return base + 3 * joints + j; }
   int count() const { return base + 4 * joints; }
 };
 

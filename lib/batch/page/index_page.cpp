@@ -125,7 +125,7 @@ std::string kind_table(const BatchSummary& summary) {
   std::vector<HtmlRow> rows;
   for (const auto& [kind, joints] : summary.kinds)
     for (const auto& [joint, count] : joints)
-      rows.push_back({kind, joint > 0 ? std::to_string(joint) : "-", std::to_string(count)});
+      rows.push_back({kind, joint.is_none() ? "-" : fmt::format("{}", joint), std::to_string(count)});
   return rows.empty() ? ""
                       : "<h2>Faults by kind</h2>\n" +
                             scrolling("Faults by kind", html_table({"fault", "joint", "times"}, rows));
@@ -236,16 +236,16 @@ std::string provenance(const BatchFacts& facts) {
 std::string index_thumbnail(const BatchRow& row) {
   const Scale scale{row.start_s, row.end_s};
   if (!(scale.end_s > scale.start_s)) return "";
-  int first = 1, last = std::max(row.joints, 1);
+  int first = 1, last = std::max(row.joints, 1);  // numbers of joints; 0 for faults of none
   for (const FaultEvent& fault : row.faults) {
-    first = std::min(first, fault.label.joint);
-    last = std::max(last, fault.label.joint);
+    first = std::min(first, fault.label.joint.number());
+    last = std::max(last, fault.label.joint.number());
   }
   std::string lanes, bars;
-  for (int joint = first; joint <= last; ++joint)
-    lanes += fmt::format("M0 {}h{}", (joint - first) * kLane + 3, kWidth);
+  for (int number = first; number <= last; ++number)
+    lanes += fmt::format("M0 {}h{}", (number - first) * kLane + 3, kWidth);
   for (const FaultEvent& fault : row.faults)
-    bars += fault_bars(fault, scale, (fault.label.joint - first) * kLane + 1);
+    bars += fault_bars(fault, scale, (fault.label.joint.number() - first) * kLane + 1);
   return fmt::format("<svg class=\"t\" viewBox=\"0 0 160 {}\" aria-hidden=\"true\"><path d=\"{}\"/>{}</svg>",
                      (last - first + 1) * kLane, lanes, bars);
 }

@@ -77,9 +77,9 @@ double value_in(const std::vector<ParameterValue>& values, const std::string& na
 /// Friction of each joint against the robot that was identified.
 PlotPanel condition_panel(const std::vector<const BatchRow*>& judged, int joints) {
   PlotPanel panel{"friction, % from identified", {}};
-  for (int j = 1; j <= std::min(joints, kJoints); ++j) {
-    const std::string name = fmt::format("{}_{}", to_string(DayEffectKind::friction), j);
-    PlotSeries series = curve(fmt::format("joint {}", j), judged, false,
+  for (int j = 0; j < std::min(joints, kJoints); ++j) {
+    const std::string name = fmt::format("{}_{}", to_string(DayEffectKind::friction), Joint::at(j));
+    PlotSeries series = curve(fmt::format("joint {}", Joint::at(j)), judged, false,
                               [&](const BatchRow& row) { return value_in(row.condition, name); });
     if (std::any_of(series.y.begin(), series.y.end(), [](double y) { return std::isfinite(y); }))
       panel.series.push_back(std::move(series));
@@ -123,7 +123,7 @@ std::string index_trends(const std::vector<BatchRow>& rows) {
   for (const BatchRow* row : judged) joints = std::max(joints, static_cast<int>(row->residual_rms.size()));
   PlotPanel residual{"residual (1 = healthy)", {}, true};
   for (int j = 0; j < std::min(joints, kJoints); ++j)
-    residual.series.push_back(curve(fmt::format("joint {}", j + 1), judged, false,
+    residual.series.push_back(curve(fmt::format("joint {}", Joint::at(j)), judged, false,
                                     [j](const BatchRow& row) { return nth(row.residual_rms, j); }));
   PlotPanel faults{"faults", {}};
   faults.series.push_back(

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/core/json/json_matrix.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/text.hpp"
@@ -24,8 +25,9 @@
 ///   }
 ///
 /// fields_to_json() writes the members in this order, fields_from_json() reads them. A member can be a bool,
-/// a number, a text, a std::vector, a std::array, a std::optional (null if empty), an Eigen vector or matrix,
-/// a struct with a description, or JSON itself. A struct has one description in the whole program.
+/// a number, a text, a Joint (its number), a std::vector, a std::array, a std::optional (null if empty), an
+/// Eigen vector or matrix, a struct with a description, or JSON itself. A struct has one description in the
+/// whole program.
 namespace faultline {
 
 template <typename T, typename Thing>
@@ -82,6 +84,8 @@ class FieldWriter {
   /// Null for an empty text, or for a count below 1.
   void or_null(const char* key, const std::string& text) { json_[key] = text_or_null(text); }
   void or_null(const char* key, int count) { json_[key] = count_or_null(count); }
+  /// Null for no joint.
+  void or_null(const char* key, Joint joint) { json_[key] = count_or_null(joint.number()); }
   /// An index from 0, which is stored as a number from 1.
   void from_one(const char* key, int index) { (*this)(key, index + 1); }
   /// A text of a user, in which bytes that are not UTF-8 are replaced.
@@ -122,6 +126,8 @@ class FieldWriter {
     } else if constexpr (std::is_arithmetic_v<T> || std::is_convertible_v<T, std::string> ||
                          std::is_same_v<T, Json>) {
       return Json(value);
+    } else if constexpr (std::is_same_v<T, Joint>) {
+      return Json(value.number());
     } else if constexpr (kIsOptional<T>) {
       return value ? value_of(*value) : Json(nullptr);
     } else if constexpr (EigenMatrix<T>) {
@@ -175,7 +181,8 @@ class FieldReader {
   template <typename T>
   void or_null(const char* key, T& value) {
     const Json& member = json_.at(key);
-    value = member.is_null() ? T{} : member.template get<T>();
+    value = T{};
+    if (!member.is_null()) read(member, value);
   }
   void from_one(const char* key, int& index) { index = json_.at(key).template get<int>() - 1; }
   void text(const char* key, std::string& value) { (*this)(key, value); }
@@ -209,6 +216,8 @@ class FieldReader {
       value = number_or_nan(json);
     } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
       value = json.template get<T>();
+    } else if constexpr (std::is_same_v<T, Joint>) {
+      value = Joint::numbered(json.template get<int>());
     } else if constexpr (std::is_same_v<T, Json>) {
       value = json;
     } else if constexpr (kIsOptional<T>) {

@@ -41,7 +41,7 @@ RobotOfTheDay robot_of_the_day(const Model& model, const std::vector<ConditionIt
   RobotOfTheDay robot{model.robot.chain, std::vector<double>(n, 1.0), std::vector<double>(n, 0.0),
                       model.robot.torque_phi.value_or(0.0)};
   for (const ConditionItem& item : condition) {
-    const int j = item.joint - 1;
+    const int j = item.joint.index();
     if (!std::isfinite(item.value)) continue;
     if (item.kind == DayEffectKind::friction) {
       const double scale = std::max(1.0 + item.value / 100.0, kLeastFriction);

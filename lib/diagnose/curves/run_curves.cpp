@@ -44,7 +44,7 @@ std::vector<FaultLabel> asked_about(const FaultFinding& fault) {
     if (label.kind != FaultKind::none && std::find(labels.begin(), labels.end(), label) == labels.end())
       labels.push_back(label);
   if (labels.size() > 2) labels.resize(2);
-  labels.push_back({FaultKind::none, 0});
+  labels.push_back({FaultKind::none});
   return labels;
 }
 

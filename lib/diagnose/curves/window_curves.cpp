@@ -44,7 +44,7 @@ WindowCurves::WindowCurves(const CurveWindow& window, const Model& model,
       held_s_(kHeldSteps * model.residual.shape.step_s * model.residual.shape.stride /
               std::max(model.residual.shape.step, 1)) {
   const EnvelopeBuilder empty(window.bins);
-  joints_.assign(model.robot.joints(), Joint{empty, empty, empty, empty, empty, empty, empty});
+  joints_.assign(model.robot.joints(), JointColumns{empty, empty, empty, empty, empty, empty, empty});
   const std::vector<FaultLabel>& classes = model.samples.classifier.classes;
   for (const FaultLabel& label : labels) {
     const auto found = std::find(classes.begin(), classes.end(), label);
@@ -75,7 +75,7 @@ void WindowCurves::take(const Log& segment, const Residuals& residuals, const Re
 void WindowCurves::take_row(const Log& segment, int row, int bin, const RequiredTorque& torque,
                             bool by_reference) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    Joint& to = joints_[j];
+    JointColumns& to = joints_[j];
     to.q.add(bin, segment.q[j][row]);
     if (!segment.tau.empty()) to.tau.add(bin, segment.tau[j][row]);
     if (!segment.dq.empty()) to.dq.add(bin, segment.dq[j][row]);
@@ -102,7 +102,7 @@ void WindowCurves::take_prediction(const Log& segment, int row, const Residuals&
   const HealthyResiduals& healthy = model_.residual.healthy;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const auto joint = static_cast<Eigen::Index>(j);
-    Joint& to = joints_[j];
+    JointColumns& to = joints_[j];
     const ExpectedJoint expected = expected_joint(healthy, segment, row, residuals, i, static_cast<int>(j));
     to.residual.add(bin, std::abs(residuals.velocity(joint, i)));
     to.q_predicted.add(bin, expected.q);
@@ -128,7 +128,7 @@ void WindowCurves::take_outputs(const Residuals& residuals) {
 
 CurveWindow WindowCurves::curves() const {
   CurveWindow out = window_;
-  for (const Joint& joint : joints_)
+  for (const JointColumns& joint : joints_)
     out.joints.push_back({joint.q.envelope(), joint.q_predicted.envelope(), joint.dq.envelope(),
                           joint.dq_predicted.envelope(), joint.tau.envelope(), joint.tau_required.envelope(),
                           largest_of(joint.residual.envelope())});
@@ -138,12 +138,11 @@ CurveWindow WindowCurves::curves() const {
 }
 
 ExpectedJoint expected_joint(const HealthyResiduals& healthy, const Log& segment, int row,
-                             const Residuals& residuals, int i, int joint) {
+                             const Residuals& residuals, int i, int j) {
   ExpectedJoint expected;
-  expected.q = segment.q[joint][row] - residuals.position(joint, i) * healthy.position_rms[joint];
-  expected.dq = segment.dq.empty()
-                    ? std::numeric_limits<double>::quiet_NaN()
-                    : segment.dq[joint][row] - residuals.velocity(joint, i) * healthy.velocity_rms[joint];
+  expected.q = segment.q[j][row] - residuals.position(j, i) * healthy.position_rms[j];
+  expected.dq = segment.dq.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                   : segment.dq[j][row] - residuals.velocity(j, i) * healthy.velocity_rms[j];
   return expected;
 }
 

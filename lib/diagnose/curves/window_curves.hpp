@@ -17,9 +17,9 @@ struct ExpectedJoint {
   double q = 0.0, dq = 0.0;  ///< rad or m and per s; dq is NaN without measured velocities
 };
 
-/// Returns prediction `i` of `residuals` for joint `joint` (from 0); it ends at row `row` of the segment.
+/// Returns prediction `i` of `residuals` for joint `j` (from 0); it ends at row `row` of the segment.
 ExpectedJoint expected_joint(const HealthyResiduals& healthy, const Log& segment, int row,
-                             const Residuals& residuals, int i, int joint);
+                             const Residuals& residuals, int i, int j);
 
 /// Gathers the curves of one stretch of a log as segments stream by, in order; the result does not depend on
 /// segment borders.
@@ -34,7 +34,7 @@ class WindowCurves {
   CurveWindow curves() const;
 
  private:
-  struct Joint {
+  struct JointColumns {
     EnvelopeBuilder q, q_predicted, dq, dq_predicted, tau, tau_required, residual;
   };
   struct Network {
@@ -61,7 +61,7 @@ class WindowCurves {
   double bins_per_s_;
   double held_s_;  ///< longest time between two predictions without a gap in the log
   Reached predicted_, classified_;
-  std::vector<Joint> joints_;
+  std::vector<JointColumns> joints_;
   std::vector<Network> networks_;
 };
 

@@ -52,9 +52,9 @@ double stated_range(const DayEffect& effect, const Model& model) {
     case DayEffectKind::torque_gain:
       return normal.torque_constant;
     case DayEffectKind::torque_offset:
-      return normal.torque_offset * model.motion.torque_scale[effect.joint - 1];
+      return normal.torque_offset * model.motion.torque_scale[effect.joint.index()];
     case DayEffectKind::torque_ripple:
-      return kNormalRipple * model.motion.torque_scale[effect.joint - 1];
+      return kNormalRipple * model.motion.torque_scale[effect.joint.index()];
   }
   return 0.0;
 }

@@ -90,19 +90,19 @@ void LogTally::take(const Log& segment, const LogSource& log, const Model& model
   facts.judgeable_rows += complete_rows(segment);
 }
 
-/// Returns the joints, from 1, whose range is less than kHardly of that of the healthy logs.
-std::vector<int> resting_joints(const LogTally& tally, const Model& model) {
-  std::vector<int> out;
+/// Returns the joints whose range is less than kHardly of that of the healthy logs.
+std::vector<Joint> resting_joints(const LogTally& tally, const Model& model) {
+  std::vector<Joint> out;
   if (!model.has_mechanics()) return out;
   const auto [low, high] =
       std::visit([](const auto& robot) { return std::pair(robot.q_low, robot.q_high); }, model.explain.robot);
   for (int j = 0; j < low.size(); ++j) {
     const auto q = std::find_if(
         tally.quality.channels.begin(), tally.quality.channels.end(), [&](const ChannelSummary& channel) {
-          return channel.canonical && channel.name == to_string(Channel{Quantity::q, j + 1});
+          return channel.canonical && channel.name == to_string(Channel{Quantity::q, Joint::at(j)});
         });
     if (q != tally.quality.channels.end() && q->max - q->min < kHardly * (high[j] - low[j]))
-      out.push_back(j + 1);
+      out.push_back(Joint::at(j));
   }
   return out;
 }

@@ -17,12 +17,16 @@ bool lacks(const JointSignals& signals, std::size_t joint, int row) {
   return !signals.empty() && !std::isfinite(signals[joint][row]);
 }
 
+/// The joint of a course; none for that of the rows.
+Joint joint_of(std::size_t course) { return Joint::at(static_cast<int>(course) - 1); }
+
 /// Returns the thin stretches without those of single joints that overlap one of missing or empty rows.
 std::vector<UnjudgedStretch> without_doubles(const std::vector<UnjudgedStretch>& thin) {
   std::vector<UnjudgedStretch> out;
   for (const UnjudgedStretch& each : thin) {
     const bool is_double = std::any_of(thin.begin(), thin.end(), [&](const UnjudgedStretch& rows) {
-      return rows.joint == 0 && each.joint != 0 && rows.start_s < each.end_s && each.start_s < rows.end_s;
+      return rows.joint.is_none() && !each.joint.is_none() && rows.start_s < each.end_s &&
+             each.start_s < rows.end_s;
     });
     if (!is_double) out.push_back(each);
   }
@@ -64,7 +68,8 @@ void UnjudgedTime::take_row(const Log& rows, int row, const std::vector<LogRun>&
     ++run_;
   }
   const bool is_missing_before = t - last_s_ > kLostRowsStep * period_s_;
-  if (t - last_s_ > moment_s_ && long_.size() < kMostLong) long_.push_back({0, last_s_, t, false, false});
+  if (t - last_s_ > moment_s_ && long_.size() < kMostLong)
+    long_.push_back({Joint(), last_s_, t, false, false});
   bool is_empty = true;
   for (std::size_t j = 0; j < rows.q.size(); ++j) {
     Course& joint = courses_[j + 1];
@@ -114,7 +119,7 @@ void UnjudgedTime::judge(std::size_t course, double time_s, bool is_missing_befo
 void UnjudgedTime::note_long(std::size_t course, double end_s) {
   const Course& of = courses_[course];
   if (course > 0 && long_.size() < kMostLong)
-    long_.push_back({static_cast<int>(course), of.judged_s, end_s, of.lacks_position, of.lacks_torque});
+    long_.push_back({joint_of(course), of.judged_s, end_s, of.lacks_position, of.lacks_torque});
 }
 
 /// Adds the time since the last judged row to the window, unless it is a long stretch.
@@ -153,7 +158,7 @@ void UnjudgedTime::settle(std::size_t course) {
   Piece& thin = courses_[course].thin;
   const double length_s = thin.end_s - thin.start_s;
   if (length_s > 0.0 && thin_.size() < kMostThin)
-    thin_.push_back({.joint = static_cast<int>(course),
+    thin_.push_back({.joint = joint_of(course),
                      .start_s = thin.start_s,
                      .end_s = std::min(thin.end_s, last_s_),
                      .lacks_position = thin.lacks_position,

@@ -132,7 +132,7 @@ LogMismatch other_torque(const Fit& fit, bool all) {
       continue;
     }
     other += ratio > kOtherUnit || ratio < 1.0 / kOtherUnit;
-    ratios.push_back(fmt::format("tau{} {:.3g}", j + 1, ratio));
+    ratios.push_back(fmt::format("tau{} {:.3g}", Joint::at(static_cast<int>(j)), ratio));
   }
   const bool enough = all ? other == determined : poor <= (determined > 2 ? 1 : 0) && 2 * other >= determined;
   if (!enough || other < std::min(static_cast<int>(fit.size()), 2)) return {};
@@ -146,18 +146,19 @@ LogMismatch other_velocity(const Fit& fit) {
   std::vector<std::string> factors;
   for (std::size_t j = 0; j < fit.size(); ++j)
     if (fit[j].is_determined() && fit[j].velocity_factor != 1.0)
-      factors.push_back(
-          fmt::format("dq{0} is {1:.4g} times the derivative of q{0}", j + 1, fit[j].velocity_factor));
+      factors.push_back(fmt::format("dq{0} is {1:.4g} times the derivative of q{0}",
+                                    Joint::at(static_cast<int>(j)), fit[j].velocity_factor));
   if (factors.empty()) return {};
   return {fmt::format("position, velocity and time are inconsistent: {}", fmt::join(factors, ", ")),
           "write their units into [log.columns], or correct the clock of the log"};
 }
 
 LogMismatch other_robot(const Beginning& beginning) {
-  std::vector<int> far;
+  std::vector<Joint> far;
   const int joints = static_cast<int>(beginning.ever.size());
   for (int j = 0; j < joints; ++j)
-    if (!beginning.ever[j].empty() && best_misfit(beginning.ever[j]) > kNeverNear) far.push_back(j + 1);
+    if (!beginning.ever[j].empty() && best_misfit(beginning.ever[j]) > kNeverNear)
+      far.push_back(Joint::at(j));
   if (far.empty() || static_cast<int>(far.size()) < std::min(joints, 2)) return {};
   return {fmt::format("its torques never match the motion of this robot (joints {}), not even with other "
                       "units, signs or columns: another robot, tool or recording",

@@ -68,8 +68,9 @@ FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
   out.kind = judged.kind;
   out.joint = judged.guess.joint;
   if (out.kind == FaultKind::collision) {  // of the joint with the greatest force, relative to its torque
-    judged.fit.size.cwiseQuotient(log.model->torque_rms).cwiseAbs().maxCoeff(&out.joint);
-    ++out.joint;
+    int j = 0;
+    judged.fit.size.cwiseQuotient(log.model->torque_rms).cwiseAbs().maxCoeff(&j);
+    out.joint = Joint::at(j);
   }
   out.onset_s = judged.guess.onset_s;
   if (judged.guess.duration_s > 0.0) out.end_s = out.onset_s + judged.guess.duration_s;
@@ -152,7 +153,7 @@ void CoarseBench::integrate_best() {
       judge_and_keep(j.guess, kCoarseRounds, j.fit.steps);
 }
 
-bool CoarseBench::tried_near(FaultKind kind, int joint, double onset_s) const {
+bool CoarseBench::tried_near(FaultKind kind, Joint joint, double onset_s) const {
   return std::ranges::any_of(tried, [&](const CoarseGuess& g) {
     return g.kind == kind && g.joint == joint &&
            std::abs(g.onset_s - onset_s) < kSameSamples * log.period_s();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/explain/coarse/coarse_judge.hpp"
 #include "lib/explain/explain.hpp"
 
@@ -37,7 +38,7 @@ class CoarseBench {
   /// Integrates the best guesses that may win anew about the trajectories that they imply; all of them if the
   /// best one has large residuals.
   void integrate_best();
-  bool tried_near(FaultKind kind, int joint, double onset_s) const;
+  bool tried_near(FaultKind kind, Joint joint, double onset_s) const;
   double best_gain() const;
   /// Returns the explanation of the log by these hypotheses.
   LogExplanation explanation() const;

@@ -36,7 +36,7 @@ constexpr double kUnreadSample = 0.7;      // nats of each sample that a stuck e
 /// on.
 Eigen::MatrixXd read_column(const CoarseLog& log, const CoarseGuess& guess, int from) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(log.read.rows(), log.samples());
-  const int j = guess.joint - 1, n = log.joints();
+  const int j = guess.joint.index(), n = log.joints();
   for (int k = from; k < log.samples(); ++k) {
     out(j, k) = guess.kind == FaultKind::sensor_bias ? 1.0 : log.time_s(k) - guess.onset_s;
     if (guess.kind == FaultKind::sensor_drift && !guess.velocity_is_true) out(n + j, k) = 1.0;
@@ -81,7 +81,7 @@ JointMatrix inertia_at(const CoarseLog& log, int sample) {
 /// speeds of the joints coupled to it jump.
 MatrixXd process_of(const CoarseLog& log, const CoarseGuess& guess, const LinearSteps& steps, int from,
                     double tolerated_share) {
-  const int n = log.joints(), j = guess.joint - 1;
+  const int n = log.joints(), j = guess.joint.index();
   MatrixXd std = tolerated_force(log, tolerated_share);
   if (guess.kind == FaultKind::unknown)
     std.row(j)
@@ -123,7 +123,7 @@ void add_onset_column(const CoarseLog& log, const MotionPlan& plan, const Coarse
 std::optional<Linearised> linearise(const CoarseLog& log, const CoarseGuess& guess, const Setup& at,
                                     const CoarseJudging& how) {
   const OneStepModel& m = *log.model;
-  const int n = log.joints(), j = guess.joint - 1, from = log.log.first_row(guess.onset_s);
+  const int n = log.joints(), j = guess.joint.index(), from = log.log.first_row(guess.onset_s);
   const FaultDirections fault = fault_directions(m, guess.kind, guess.joint);
   const bool reading = falsifies_position(guess.kind);
   const int sizes = static_cast<int>(fault.std.size()), effects = static_cast<int>(log.day.cols());
@@ -227,7 +227,7 @@ VectorXd within_reason(const CoarseLog& log, const CoarseGuess& guess, const Vec
   VectorXd out = size.cwiseMax(-kMostColumns * std).cwiseMin(kMostColumns * std);
   if (guess.kind == FaultKind::torque_loss) out[0] = std::clamp(out[0], 0.0, kMostLossOfStart);
   if (guess.kind == FaultKind::payload_change)
-    out[0] = std::clamp(out[0], 0.0, kMostPayload * log.model->carried_kg[guess.joint - 1]);
+    out[0] = std::clamp(out[0], 0.0, kMostPayload * log.model->carried_kg[guess.joint.index()]);
   return out;
 }
 
@@ -274,7 +274,7 @@ double price_of_friction(const CoarseLog& log, int j, const CoarseExplanation& f
 /// Returns the price of a guess in nats beside its residuals: for sizes that its kind does not have, for
 /// measurements and forces that it excludes, for codes that repeat or do not. `from` is its first sample.
 double coarse_price(const CoarseLog& log, const CoarseGuess& guess, const CoarseExplanation& fit, int from) {
-  const int j = guess.joint - 1, late = log.samples() - from;
+  const int j = guess.joint.index(), late = log.samples() - from;
   switch (guess.kind) {
     case FaultKind::torque_loss:
       return (fit.size[0] < 0.0 ? kNoSuchSize : 0.0) + kBeyondLoss * std::max(0.0, fit.size[0] - kMostLoss);
@@ -331,7 +331,7 @@ MatrixXd tolerated_force(const CoarseLog& log, double tolerated_share) {
 
 std::optional<CoarseExplanation> judge_coarse(const CoarseLog& log, const CoarseGuess& guess,
                                               const CoarseJudging& how) {
-  const int n = log.joints(), j = guess.joint - 1, from = log.log.first_row(guess.onset_s);
+  const int n = log.joints(), j = guess.joint.index(), from = log.log.first_row(guess.onset_s);
   const int late = log.samples() - from;
   const bool locked = guess.kind == FaultKind::locked && late > 0;
   Setup at{VectorXd::Zero(log.day.cols()), guess.start, log.about};

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "lib/core/joint.hpp"
 #include "lib/explain/coarse/coarse_log.hpp"
 #include "lib/explain/coarse/fault_directions.hpp"
 #include "lib/fault/fault_kind.hpp"
@@ -14,7 +15,7 @@ namespace faultline {
 /// A hypothesis about a log at a coarse rate. FaultKind::none is the healthy robot.
 struct CoarseGuess {
   FaultKind kind = FaultKind::none;
-  int joint = 0;  ///< from 1
+  Joint joint{};
   double onset_s = 1e9;
   double duration_s = 0.0;        ///< 0: to the end of the log
   Eigen::VectorXd start{};        ///< sizes to begin with; empty: none

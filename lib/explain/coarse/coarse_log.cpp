@@ -158,9 +158,9 @@ std::optional<CoarseLog> settled_part(const CoarseLog& log) {
   return followed_log(part_of(log.log, 0, log.settled), *log.model);
 }
 
-bool repeats_are_evidence(const OneStepModel& model, int joint) {
-  return model.longest_repeat[joint] < kFewestRepeats &&
-         model.reading_variance[joint] > kTellingNoise * kTellingNoise;
+bool repeats_are_evidence(const OneStepModel& model, int j) {
+  return model.longest_repeat[j] < kFewestRepeats &&
+         model.reading_variance[j] > kTellingNoise * kTellingNoise;
 }
 
 }  // namespace faultline

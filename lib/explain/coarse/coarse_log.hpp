@@ -65,6 +65,6 @@ std::optional<CoarseLog> followed_log(UniformLog log, const OneStepModel& model)
 std::optional<CoarseLog> settled_part(const CoarseLog& log);
 
 /// Returns whether repeated codes of a position are evidence: in healthy logs its noise makes them rare.
-bool repeats_are_evidence(const OneStepModel& model, int joint);
+bool repeats_are_evidence(const OneStepModel& model, int j);
 
 }  // namespace faultline

@@ -33,7 +33,7 @@ constexpr double kWrongWay = -9.0;       // score in nats of a negative loss or 
 /// Successive columns of one kind and joint.
 struct Group {
   FaultKind kind = FaultKind::none;
-  int joint = 0;
+  Joint joint{};
   double duration_s = 0.0;
   Eigen::Index begin = 0;  ///< first column
   VectorXd std;            ///< of the size of each
@@ -52,7 +52,7 @@ Catalogue catalogue(const CoarseLog& log) {
   const int n = log.joints();
   Catalogue out;
   out.direction.resize(m.layout().count(), 0);
-  const auto add = [&](FaultKind kind, int joint, double duration_s = 0.0) {
+  const auto add = [&](FaultKind kind, Joint joint, double duration_s = 0.0) {
     const MatrixXd direction = fault_directions(m, kind, joint).direction;
     Group group{kind, joint, duration_s, out.direction.cols(), prior_of_sizes(m, kind, joint)};
     out.direction.conservativeResize(Eigen::NoChange, group.begin + group.std.size());
@@ -65,14 +65,15 @@ Catalogue catalogue(const CoarseLog& log) {
   };
   for (const FaultKind kind :
        {FaultKind::torque_loss, FaultKind::friction_increase, FaultKind::torque_sensor_error})
-    for (int j = 1; j <= n; ++j) add(kind, j);
-  for (const int link : payload_links(m.body.rigid().chain)) add(FaultKind::payload_change, link + 1);
+    for (int j = 0; j < n; ++j) add(kind, Joint::at(j));
+  for (const Joint link : payload_links(m.body.rigid().chain)) add(FaultKind::payload_change, link);
   for (const double length : kBlow_s)
-    add(FaultKind::collision, n, std::max(1.0, std::round(length / log.period_s())) * log.period_s());
+    add(FaultKind::collision, Joint::at(n - 1),
+        std::max(1.0, std::round(length / log.period_s())) * log.period_s());
   out.bias = out.direction.cols();
-  for (int j = 1; j <= n; ++j) add(FaultKind::sensor_bias, j);
+  for (int j = 0; j < n; ++j) add(FaultKind::sensor_bias, Joint::at(j));
   out.drift = out.direction.cols();
-  for (int j = 1; j <= n; ++j) add(FaultKind::sensor_drift, j);
+  for (int j = 0; j < n; ++j) add(FaultKind::sensor_drift, Joint::at(j));
   return out;
 }
 

@@ -48,7 +48,7 @@ std::vector<CoarseGuess> guesses_of(const CoarseSearch& search, CoarseBench& ben
     const double onset = log.time_s(search.onsets[k]);
     for (const FaultLabel& label : fault_labels_of(*log.model))
       if (is_linear_at_coarse(label.kind)) out.push_back({label.kind, label.joint, onset});
-    for (int j = 1; j <= n; ++j) bench.go({FaultKind::unknown, j, onset}, 1);
+    for (int j = 0; j < n; ++j) bench.go({FaultKind::unknown, Joint::at(j), onset}, 1);
   }
   return out;
 }
@@ -88,7 +88,7 @@ void judge_standstill(int j, CoarseBench& bench) {
   for (const int before : {2, 1, 0})
     for (const double share : {0.2, 0.5, 0.8}) {
       const double onset_s = log.time_s(std::max(1, since - before)) - share * log.period_s();
-      bench.go({FaultKind::locked, j + 1, onset_s}, 1);
+      bench.go({FaultKind::locked, Joint::at(j), onset_s}, 1);
     }
 }
 
@@ -103,8 +103,8 @@ void judge_repeats(int j, CoarseBench& bench) {
   for (const int first : {same, same - 1}) {  // first false code: repeats the last true one, or is a new one
     if (first < 1) continue;
     const double onset_s = log.time_s(first) - 0.5 * log.period_s();
-    bench.go({FaultKind::stuck_encoder, j + 1, onset_s});
-    bench.go({FaultKind::locked, j + 1, onset_s}, 1);
+    bench.go({FaultKind::stuck_encoder, Joint::at(j), onset_s});
+    bench.go({FaultKind::locked, Joint::at(j), onset_s}, 1);
   }
 }
 

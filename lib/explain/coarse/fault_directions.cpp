@@ -14,9 +14,9 @@ constexpr double kUsualOffset = 0.6;  // of the usual torque: standard deviation
 
 }  // namespace
 
-FaultDirections fault_directions(const OneStepModel& m, FaultKind kind, int joint) {
+FaultDirections fault_directions(const OneStepModel& m, FaultKind kind, Joint joint) {
   const MotionLayout at = m.layout();
-  const int j = joint - 1;
+  const int j = joint.index();
   FaultDirections out;
   const auto make = [&](int sizes) {
     out.direction = MatrixXd::Zero(at.count(), sizes);
@@ -52,9 +52,9 @@ std::vector<FaultLabel> fault_labels_of(const OneStepModel& model) {
   return fault_labels(model.joints(), payload_links(model.body.rigid().chain), model.torque_is_measured);
 }
 
-Eigen::VectorXd prior_of_sizes(const OneStepModel& model, FaultKind kind, int joint) {
+Eigen::VectorXd prior_of_sizes(const OneStepModel& model, FaultKind kind, Joint joint) {
   if (!falsifies_position(kind)) return fault_directions(model, kind, joint).std;
-  const bool turns = model.body.rigid().chain.geometry[joint - 1].kind == AxisKind::revolute;
+  const bool turns = model.body.rigid().chain.geometry[joint.index()].kind == AxisKind::revolute;
   return Eigen::VectorXd::Constant(1, turns ? 0.1 : 0.03);
 }
 

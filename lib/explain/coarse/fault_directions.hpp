@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/balance/one_step/one_step_model.hpp"
+#include "lib/core/joint.hpp"
 #include "lib/fault/fault_kind.hpp"
 
 namespace faultline {
@@ -17,11 +18,11 @@ struct FaultDirections {
   Eigen::VectorXd std;
 };
 
-FaultDirections fault_directions(const OneStepModel& model, FaultKind kind, int joint);
+FaultDirections fault_directions(const OneStepModel& model, FaultKind kind, Joint joint);
 /// Returns the kinds and joints of the faults that are judged.
 std::vector<FaultLabel> fault_labels_of(const OneStepModel& model);
 /// Returns the prior standard deviation of the sizes of a fault, also of a false position (rad or m) and of a
 /// drift (rad/s or m/s).
-Eigen::VectorXd prior_of_sizes(const OneStepModel& model, FaultKind kind, int joint);
+Eigen::VectorXd prior_of_sizes(const OneStepModel& model, FaultKind kind, Joint joint);
 
 }  // namespace faultline

@@ -77,7 +77,7 @@ std::vector<Candidate> search_collision(const WhiteSearch& s) {
       gain += 0.5 * left_over.square() / (weight_over + 1.0 / prior) -
               0.5 * (weight_over * prior).unaryExpr(&elementary::log1p);
     }
-    append(peaks(fit, {FaultKind::collision, fit.joints()}, gain, 2), out);
+    append(peaks(fit, {FaultKind::collision, fit.last_joint()}, gain, 2), out);
   }
   return out;
 }
@@ -94,7 +94,7 @@ std::vector<Candidate> search_standstill(const LogFit& fit, int j) {
   std::vector<Candidate> out;
   for (const int before : {0, 2, 5}) {
     const int row = std::clamp(since - before, first_onset_row(fit), fit.count() - kTail);
-    out.push_back({{FaultKind::locked, j + 1, fit.time_s()[row]}});
+    out.push_back({{FaultKind::locked, Joint::at(j), fit.time_s()[row]}});
   }
   return out;
 }
@@ -104,7 +104,7 @@ std::vector<Candidate> search_jumps(const LogFit& fit, int j) {
   const std::vector<SensorJump> jumps = sensor_jumps(fit, j);
   std::vector<Candidate> out;
   for (const SensorJump& jump : jumps) {
-    FaultClaim claim{FaultKind::sensor_bias, j + 1, jump.onset_s, kNeverEnds,
+    FaultClaim claim{FaultKind::sensor_bias, Joint::at(j), jump.onset_s, kNeverEnds,
                      VectorXd::Constant(1, jump.size)};
     out.push_back({claim, kJumpScore});
     const std::optional<double> back_s = taken_back_s(jumps, claim);
@@ -266,7 +266,7 @@ std::vector<Candidate> search_drift(const WhiteSearch& s, const MatrixXd& inerti
   for (Eigen::Index i = 0; i < drifts.size(); ++i) {
     const double d = drifts[i];
     const VectorXd gain = gains.col(i) + d * impulse.product - 0.5 * d * d * impulse.square;
-    const FaultClaim drift{FaultKind::sensor_drift, j + 1, 0.0, kNeverEnds, VectorXd::Constant(1, d)};
+    const FaultClaim drift{FaultKind::sensor_drift, Joint::at(j), 0.0, kNeverEnds, VectorXd::Constant(1, d)};
     append(peaks(fit, drift, gain, 1), out);
   }
   return out;
@@ -304,7 +304,7 @@ std::vector<Candidate> search(const LogFit& fit) {
     append(search_jumps(fit, j), out);
     for (const FaultSpan& run : repeated_codes(fit, j))
       for (const FaultKind kind : {FaultKind::stuck_encoder, FaultKind::locked})
-        out.push_back({{kind, j + 1, run.onset_s, run.end_s}, kRepeatScore});
+        out.push_back({{kind, Joint::at(j), run.onset_s, run.end_s}, kRepeatScore});
   }
   std::erase_if(out, [&](const Candidate& c) { return fit.is_silent(c.joint, c.onset_s); });
   return out;

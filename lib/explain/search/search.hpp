@@ -21,7 +21,7 @@ struct Standstill {
   double tolerance = 0.0;
 };
 
-/// Returns that of joint `joint` (from 0).
-Standstill standstill(const LogFit& fit, int joint);
+/// Returns that of joint `j` (from 0).
+Standstill standstill(const LogFit& fit, int j);
 
 }  // namespace faultline

@@ -121,7 +121,7 @@ std::optional<double> taken_back_s(const std::vector<SensorJump>& jumps, const F
 }
 
 double jump_evidence(const LogFit& fit, const FaultClaim& claim) {
-  const int j = claim.joint - 1;
+  const int j = claim.joint.index();
   const UniformLog& log = fit.log();
   if (claim.kind != FaultKind::sensor_bias || !claim.velocity_is_true || is_from_positions(fit, j))
     return 0.0;

@@ -14,7 +14,7 @@ struct SensorJump {
   double size = 0.0;  ///< rad or m
 };
 
-std::vector<SensorJump> sensor_jumps(const LogFit& fit, int joint);
+std::vector<SensorJump> sensor_jumps(const LogFit& fit, int j);
 
 /// Returns whether a false reading of size `b` takes back one of size `a`.
 bool takes_back(double b, double a);
@@ -26,13 +26,13 @@ std::optional<double> taken_back_s(const std::vector<SensorJump>& jumps, const F
 double jump_evidence(const LogFit& fit, const FaultClaim& claim);
 
 /// Returns how many of the samples from `begin` to before `end` repeat the position before them.
-int repeats(const UniformLog& log, int joint, int begin, int end);
+int repeats(const UniformLog& log, int j, int begin, int end);
 
 /// Returns whether repeated codes of a position are evidence: healthy logs repeat it for a few samples only.
-bool repeats_are_rare(const BalanceModel& model, int joint);
+bool repeats_are_rare(const BalanceModel& model, int j);
 
 /// Returns when the position repeats one code for longer than healthy logs show: the longest of these spans,
 /// then those in which the joint would have moved most at its speed before: a joint at rest slows down first.
-std::vector<FaultSpan> repeated_codes(const LogFit& fit, int joint);
+std::vector<FaultSpan> repeated_codes(const LogFit& fit, int j);
 
 }  // namespace faultline

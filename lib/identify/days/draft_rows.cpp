@@ -48,13 +48,13 @@ std::vector<BalanceRows> rows_of(const std::vector<UniformLog>& logs, const RowS
 
 /// Sets the Coulomb friction of a joint to that of the setting's width.
 void renew_friction(const std::vector<UniformLog>& logs, const RowSetting& setting, const BalanceModel& model,
-                    int joint, std::vector<BalanceRows>& rows) {
-  const Eigen::Index coulomb = layout_of(model.rigid, setting).coulomb(joint);
+                    int j, std::vector<BalanceRows>& rows) {
+  const Eigen::Index coulomb = layout_of(model.rigid, setting).coulomb(j);
   for (std::size_t d = 0; d < logs.size(); ++d) {
-    rows[d].column[joint].col(coulomb) = friction_columns(logs[d], setting, joint).col(1);
+    rows[d].column[j].col(coulomb) = friction_columns(logs[d], setting, j).col(1);
     const JointMask mask = sticking_rows(rows[d], model);
     for (int k = 0; k < rows[d].rows(); ++k)
-      if (rows[d].lost[k] || (mask.size() > 0 && mask(k, joint))) rows[d].column[joint](k, coulomb) = 0.0;
+      if (rows[d].lost[k] || (mask.size() > 0 && mask(k, j))) rows[d].column[j](k, coulomb) = 0.0;
   }
 }
 

@@ -127,7 +127,7 @@ DayDraft with_ripples(DayDraft draft) {
   for (int j = 0; j < m.joints(); ++j)
     if (const auto rate = strongest_ripple(rows_of_joint(draft, j), m.setting.kernel_s,
                                            m.q_high[j] - m.q_low[j], kUsualRipples))
-      m.setting.ripples.push_back({j, *rate});
+      m.setting.ripples.push_back({Joint::at(j), *rate});
   const VectorXd before = m.theta;
   m.theta.setZero(m.layout().count());
   m.theta.head(before.size()) = before;
@@ -136,7 +136,7 @@ DayDraft with_ripples(DayDraft draft) {
 }
 
 std::optional<int> column_of(const ExtraTerm& term, const ColumnLayout& layout) {
-  if (term.kind == ExtraKind::load_friction) return layout.load(term.joint);
+  if (term.kind == ExtraKind::load_friction) return layout.load(term.joint.index());
   if (term.kind == ExtraKind::shared_inertia) return layout.drive(term.index);
   if (term.kind == ExtraKind::shared_viscous) return layout.drive(term.index) + 1;
   if (term.kind == ExtraKind::shared_coulomb) return layout.drive(term.index) + 2;

@@ -75,12 +75,12 @@ double kernel_for(const NoisySignal& signal, double period_s, double shortest_s)
   return std::min(kernel_s, widest_s);
 }
 
-NoisySignal signal_of(const std::vector<UniformLog>& logs, int joint, bool velocity) {
+NoisySignal signal_of(const std::vector<UniformLog>& logs, int j, bool velocity) {
   NoisySignal out;
   std::vector<VectorXd> noise;
   for (const UniformLog& log : logs) {
-    out.logs.emplace_back((velocity ? log.dq : log.q).col(joint));
-    noise.push_back((velocity ? log.dq_noise : log.q_noise).segment(joint, 1));
+    out.logs.emplace_back((velocity ? log.dq : log.q).col(j));
+    noise.push_back((velocity ? log.dq_noise : log.q_noise).segment(j, 1));
   }
   out.noise = joint_medians(noise)[0];
   out.derivatives = velocity ? 1 : 2;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/joint.hpp"
+
 namespace faultline {
 
 struct JointFit;
@@ -40,8 +42,8 @@ struct Excitation {
 };
 
 /// Returns what the motion of the logs determines, by joint and by parameter. `still` are the joints that
-/// never move, from 1; `fits` and `residual_rms` are by joint, of the same windows as `torque`.
+/// never move; `fits` and `residual_rms` are by joint, of the same windows as `torque`.
 Excitation motion_excitation(const TorqueFit& torque, const std::vector<JointFit>& fits,
-                             const std::vector<double>& residual_rms, const std::vector<int>& still);
+                             const std::vector<double>& residual_rms, const std::vector<Joint>& still);
 
 }  // namespace faultline

@@ -132,10 +132,11 @@ Excitation with_parameters(const ParameterSpace& space, const std::vector<bool>&
 }  // namespace
 
 Excitation motion_excitation(const TorqueFit& torque, const std::vector<JointFit>& fits,
-                             const std::vector<double>& residual_rms, const std::vector<int>& still) {
+                             const std::vector<double>& residual_rms, const std::vector<Joint>& still) {
   const ParameterSpace& space = torque.space;
   Excitation out;
-  for (int j = 0; j < space.joints(); ++j) out.joints.push_back(of_joint(fits[j], has_joint(still, j)));
+  for (int j = 0; j < space.joints(); ++j)
+    out.joints.push_back(of_joint(fits[j], has_joint(still, Joint::at(j))));
   out.columns = judged_columns(torque, space);
   out.joint_scale = joint_scales(space, residual_rms);
   out.moments = moments_of(torque.system, out.columns, out.joint_scale);

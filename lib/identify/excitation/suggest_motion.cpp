@@ -208,9 +208,9 @@ std::string comments(const SuggestedMotion& motion) {
       "# A motion that determines the parameters: condition number {:.3g}, that of the logs was {:.3g}.\n"
       "# Check before a robot runs it: the work space must be free and the drives strong enough.\n",
       motion.condition, motion.condition_of_logs);
-  for (std::size_t j = 0; j < motion.joints.size(); ++j)
+  for (int j = 0; j < std::ssize(motion.joints); ++j)
     text += fmt::format(
-        "#   joint {}: at most {:.3g} {}, {:.3g} {}{}\n", j + 1, motion.joints[j].fastest,
+        "#   joint {}: at most {:.3g} {}, {:.3g} {}{}\n", Joint::at(j), motion.joints[j].fastest,
         velocity_unit(motion.joints[j].kind), motion.joints[j].torque, torque_unit(motion.joints[j].kind),
         motion.joints[j].beyond_logs ? "; farther or faster than in the logs, which hardly move this joint"
                                      : "");

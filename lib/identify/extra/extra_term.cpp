@@ -28,10 +28,11 @@ bool is_possible(ExtraKind kind, double value) {
 std::vector<ExtraTerm> extra_terms_of(const Chain& chain, const std::vector<double>& gear_compliance) {
   std::vector<ExtraTerm> out;
   for (int j = 0; j < chain.joints(); ++j)
-    if (chain.friction[j].load != 0.0) out.push_back({ExtraKind::load_friction, j, j});
+    if (chain.friction[j].load != 0.0) out.push_back({ExtraKind::load_friction, Joint::at(j), j});
   for (int i = 0; i < static_cast<int>(chain.shared_drives.size()); ++i) {
-    int joint = 0;
-    while (joint + 1 < chain.joints() && chain.shared_drives[i].along[joint] == 0.0) ++joint;
+    int j = 0;
+    while (j + 1 < chain.joints() && chain.shared_drives[i].along[j] == 0.0) ++j;
+    const Joint joint = Joint::at(j);
     out.push_back({ExtraKind::shared_inertia, joint, i});
     out.push_back({ExtraKind::shared_viscous, joint, i});
     out.push_back({ExtraKind::shared_coulomb, joint, i});
@@ -41,7 +42,7 @@ std::vector<ExtraTerm> extra_terms_of(const Chain& chain, const std::vector<doub
     out.push_back({ExtraKind::ripple_sine, chain.ripples[i].joint, i});
   }
   for (int j = 0; j < static_cast<int>(gear_compliance.size()); ++j)
-    if (gear_compliance[j] != 0.0) out.push_back({ExtraKind::gear_compliance, j, j});
+    if (gear_compliance[j] != 0.0) out.push_back({ExtraKind::gear_compliance, Joint::at(j), j});
   return out;
 }
 
@@ -64,7 +65,7 @@ double* extra_value(Chain& chain, const ExtraTerm& term) {
 JointVector extra_torque(const Chain& chain, const ExtraTerm& term, const JointVector& q,
                          const JointVector& dq, const JointVector& ddq, const JointVector& carried) {
   JointVector out = JointVector::Zero(chain.joints());
-  const int j = term.joint;
+  const int j = term.joint.index();
   if (term.kind == ExtraKind::load_friction) {
     out[j] = std::abs(carried[j]) * elementary::tanh(dq[j] / chain.friction[j].width);
   } else if (is_ripple(term.kind)) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {
@@ -20,7 +21,7 @@ enum class ExtraKind {
 /// A linear parameter that is optional: most robots do not need it.
 struct ExtraTerm {
   ExtraKind kind = ExtraKind::load_friction;
-  int joint = 0;  ///< from 0: its joint, or the first that its shared drive turns
+  Joint joint{};  ///< its joint, or the first that its shared drive turns
   int index = 0;  ///< index in the list of the chain that holds it
 };
 

@@ -56,18 +56,18 @@ class WindowShare {
 };
 
 Samples samples_of(const WeakSets& windows, const WeakChoice& choice, const Eigen::VectorXd& parameters,
-                   int joint) {
+                   int j) {
   WeakChoice shortest = choice;
   std::fill(shortest.set.begin(), shortest.set.end(), 0);
   const WeakSystem s = assemble(windows, shortest);
   const auto& all = windows.sets[0].all();
   Samples out;
   for (Eigen::Index k = 0; k < s.y.size(); ++k) {
-    if (s.joint[k] != joint || !(s.use[k] > 0.0)) continue;
+    if (s.joint[k] != j || !(s.use[k] > 0.0)) continue;
     const WeakWindow& w = all[static_cast<std::size_t>(k) % all.size()];
     out.residual.push_back(s.y[k] - s.a.row(k).dot(parameters.head(s.a.cols())));
-    out.q.push_back(w.q[joint]);
-    out.turn.push_back(w.dq[joint] * windows.sets[0].length_s());
+    out.q.push_back(w.q[j]);
+    out.turn.push_back(w.dq[j] * windows.sets[0].length_s());
   }
   return out;
 }
@@ -121,14 +121,14 @@ std::vector<double> periodogram(const Samples& samples, double first, double ste
 }  // namespace
 
 std::vector<Ripple> find_ripples(const WeakSets& windows, const WeakChoice& choice,
-                                 const Eigen::VectorXd& parameters, int joint) {
-  Samples samples = samples_of(windows, choice, parameters, joint);
+                                 const Eigen::VectorXd& parameters, int j) {
+  Samples samples = samples_of(windows, choice, parameters, j);
   std::vector<Ripple> out;
   if (static_cast<int>(samples.q.size()) < kFewest) return out;
   const auto [low, high] = std::minmax_element(samples.q.begin(), samples.q.end());
   const double range = *high - *low, step = 0.5 * std::numbers::pi / std::max(range, 1e-9);
   double first = 2.0 * std::numbers::pi * kLeastPeriods / std::max(range, 1e-9);
-  if (windows.space.chain.geometry[joint].kind == AxisKind::revolute) first = std::max(first, kLeastTurnRate);
+  if (windows.space.chain.geometry[j].kind == AxisKind::revolute) first = std::max(first, kLeastTurnRate);
   const WindowShare share;
   for (int i = 0; i < kMostRipples; ++i) {
     std::vector<double> power = periodogram(samples, first, step, share);
@@ -143,7 +143,7 @@ std::vector<Ripple> find_ripples(const WeakSets& windows, const WeakChoice& choi
       const auto [sine, cosine] = elementary::sin_cos(angle);
       samples.residual[k] -= w * (wave[0] * cosine + wave[1] * sine);
     }
-    out.push_back({joint, rate, wave[0], wave[1]});
+    out.push_back({Joint::at(j), rate, wave[0], wave[1]});
   }
   return out;
 }

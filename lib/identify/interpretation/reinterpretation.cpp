@@ -55,7 +55,7 @@ Explained explain(const std::vector<Log>& logs, const Robot& robot) {
     const ParameterSpace space = parameter_space(robot);
     const Gathered gathered = gather(pointers, space, kMisreadingWindow_s, kMisreadingWindows, {});
     const int n = robot.joints();
-    const std::vector<int>& still = gathered.windows.still;
+    const std::vector<Joint>& still = gathered.windows.still;
     const WantedParameters wanted = wanted_parameters(space, robot, still, false);
     std::vector<bool> free = wanted.asked;
     for (std::size_t p = 0; p < free.size(); ++p) free[p] = free[p] && !wanted.optional[p];
@@ -65,7 +65,7 @@ Explained explain(const std::vector<Log>& logs, const Robot& robot) {
                                       parameters_of(space, robot.chain, 0.5), free);
     const Measurements& m = gathered.measurements;
     for (int j = 0; j < n; ++j)
-      if (!has_joint(still, j)) out.r2.push_back(fit.r2[j]);
+      if (!has_joint(still, Joint::at(j))) out.r2.push_back(fit.r2[j]);
     out.feasible = infeasibility(space, fit.parameters, fit.covariance, m.q_low(), m.q_high()).empty();
   } catch (const Error&) {
     return {};  // with this interpretation, the logs do not allow a fit

@@ -135,7 +135,7 @@ void judge_torque(const ChannelSummary& torque, Issues& issues) {
 
 }  // namespace
 
-std::string other_unit_text(const VelocityAgreement& agreement, int joint) {
+std::string other_unit_text(const VelocityAgreement& agreement, Joint joint) {
   return fmt::format("dq{0} is {1:.4g} times the derivative of q{0}: {2}; dq{0} was left out", joint,
                      1.0 / agreement.factor, velocity_guess(agreement.factor, false, false));
 }
@@ -144,7 +144,8 @@ LogSurvey survey_log(LogSource& source, int joints) {
   LogSurvey survey;
   std::vector<Busiest> busiest(joints);
   RepeatCounter repeats;
-  for (int j = 1; j <= joints; ++j) survey.torque.push_back({.name = to_string({Quantity::tau, j})});
+  for (int j = 0; j < joints; ++j)
+    survey.torque.push_back({.name = to_string({Quantity::tau, Joint::at(j)})});
   survey.summary = for_each_raw_stretch(source, joints, RepeatedRows::none, [&](const RawStretch& s) {
     repeats.add(s);
     keep_busiest(s, busiest);
@@ -182,10 +183,10 @@ Issues survey_issues(const LogSurvey& survey) {
              survey.repeated_rows == RepeatedRows::stale
                  ? "their values are outdated and were left out"
                  : "the motion did not continue during them, so these rows and their time were removed"));
-  for (std::size_t j = 0; j < survey.velocity.size(); ++j)
+  for (int j = 0; j < std::ssize(survey.velocity); ++j)
     if (survey.velocity[j].is_other_unit())
-      note(fmt::format("velocity_disagrees_{}", j + 1), Severity::severe,
-           other_unit_text(survey.velocity[j], static_cast<int>(j) + 1));
+      note(fmt::format("velocity_disagrees_{}", Joint::at(j)), Severity::severe,
+           other_unit_text(survey.velocity[j], Joint::at(j)));
   std::vector<int> derived;
   for (std::size_t j = 0; j < survey.dq_is_derived.size(); ++j)
     if (survey.dq_is_derived[j]) derived.push_back(static_cast<int>(j) + 1);

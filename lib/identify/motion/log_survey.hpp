@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/core/issue.hpp"
+#include "lib/core/joint.hpp"
 #include "lib/identify/motion/motion_smoother.hpp"
 #include "lib/identify/motion/raw_stretch.hpp"
 #include "lib/log/log_source.hpp"
@@ -14,8 +15,8 @@
 namespace faultline {
 
 /// Returns words such as "dq1 is 57.3 times the derivative of q1: the velocity seems to be in deg/s, the
-/// position in rad; dq1 was left out". `joint` counts from 1.
-std::string other_unit_text(const VelocityAgreement& agreement, int joint);
+/// position in rad; dq1 was left out".
+std::string other_unit_text(const VelocityAgreement& agreement, Joint joint);
 
 /// Properties of a log that are needed before its motion can be smoothed.
 struct LogSurvey {
@@ -28,9 +29,7 @@ struct LogSurvey {
   std::vector<ChannelSummary> torque;       ///< by joint
 
   /// Whether the joint's dq, if recorded, is an independent measurement.
-  bool measures_velocity(int joint) const {
-    return !dq_is_derived[joint] && !velocity[joint].is_other_unit();
-  }
+  bool measures_velocity(int j) const { return !dq_is_derived[j] && !velocity[j].is_other_unit(); }
 };
 
 /// Reads a log from its start. Throws Error(input) if it lacks torque or its joints differ in number.

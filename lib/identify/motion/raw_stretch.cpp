@@ -205,14 +205,14 @@ StretchSummary for_each_raw_stretch(LogSource& source, int joints, RepeatedRows 
   return cutter.finish();
 }
 
-JointMotion joint_motion(const RawStretch& s, int joint) {
+JointMotion joint_motion(const RawStretch& s, int j) {
   JointMotion m;
   m.time = s.time;
-  m.q = s.q.row(joint);
+  m.q = s.q.row(j);
   m.q_off = s.stale;
   switch_off_outliers(m.q, m.q_off);
   if (s.dq.size() == 0) return m;
-  m.dq = s.dq.row(joint);
+  m.dq = s.dq.row(j);
   m.dq_off = s.stale;
   switch_off_outliers(m.dq, m.dq_off);
   return m;

@@ -39,6 +39,6 @@ StretchSummary for_each_raw_stretch(LogSource& source, int joints, RepeatedRows 
                                     const std::function<void(const RawStretch&)>& visit);
 
 /// Returns the samples of one joint, with outliers and stale rows marked in `q_off` and `dq_off`.
-JointMotion joint_motion(const RawStretch& stretch, int joint);
+JointMotion joint_motion(const RawStretch& stretch, int j);
 
 }  // namespace faultline

@@ -105,8 +105,9 @@ void SegmentModel::pass_torque(Workspace& w) const {
 void SegmentModel::add_extra_slopes(Workspace& w) const {
   const int n = space_.joints();
   for (const Ripple& r : dynamics_.chain().ripples) {
-    const auto [sine, cosine] = elementary::sin_cos(r.rate * w.q[r.joint]);
-    w.rhs_state(r.joint, r.joint) -= w.passed[r.joint] * r.rate * (r.sine * cosine - r.cosine * sine);
+    const auto [sine, cosine] = elementary::sin_cos(r.rate * w.q[r.joint.index()]);
+    w.rhs_state(r.joint.index(), r.joint.index()) -=
+        w.passed[r.joint.index()] * r.rate * (r.sine * cosine - r.cosine * sine);
   }
   for (const SharedDrive& f : dynamics_.chain().shared_drives) {
     const double bent = elementary::tanh(f.speed(w.dq.data()) / f.width);
@@ -179,16 +180,16 @@ void SegmentModel::slopes_by_parameter(const JointVector& tau_step, Workspace& w
     } else if (space_.is_extra(p)) {
       column = -extra_torque(dynamics_.chain(), space_.extra_at(p), w.q, w.dq, w.ddq, w.carried);
     } else {
-      const int joint = space_.joint_of(p);
-      const Friction& f = dynamics_.chain().friction[joint];
-      const double u = w.dq[joint] / f.width, bent = elementary::tanh(u);
-      const double dry = f.coulomb + f.load * std::abs(w.carried[joint]);
-      column[joint] = p >= space_.log_width(0) ? dry * (1.0 - bent * bent) * u
-                      : p >= space_.skew(0)    ? -std::abs(w.dq[joint])
-                      : p >= space_.bend(0)    ? -elementary::tanh(w.dq[joint] / f.bend_width)
-                      : p >= space_.offset(0)  ? -1.0
-                      : p >= space_.coulomb(0) ? -bent
-                                               : -w.dq[joint];
+      const int j = space_.joint_of(p).index();
+      const Friction& f = dynamics_.chain().friction[j];
+      const double u = w.dq[j] / f.width, bent = elementary::tanh(u);
+      const double dry = f.coulomb + f.load * std::abs(w.carried[j]);
+      column[j] = p >= space_.log_width(0) ? dry * (1.0 - bent * bent) * u
+                  : p >= space_.skew(0)    ? -std::abs(w.dq[j])
+                  : p >= space_.bend(0)    ? -elementary::tanh(w.dq[j] / f.bend_width)
+                  : p >= space_.offset(0)  ? -1.0
+                  : p >= space_.coulomb(0) ? -bent
+                                           : -w.dq[j];
     }
     if (!space_.is_inertial(p)) column.array() *= w.passed.array();
   }

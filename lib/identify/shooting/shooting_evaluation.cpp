@@ -56,9 +56,9 @@ JointVector ShootingEvaluation::largest_torque() const {
   return most;
 }
 
-double ShootingEvaluation::narrowest_width(int joint) const {
+double ShootingEvaluation::narrowest_width(int j) const {
   const Chain chain = chain_from(space_, parameters_);
-  return std::max(1e-4, 0.5 * chain.friction[joint].width * longest_step_s_ /
+  return std::max(1e-4, 0.5 * chain.friction[j].width * longest_step_s_ /
                             stable_step(chain, excerpts_[0].start.head(space_.joints()), largest_torque()));
 }
 

@@ -39,7 +39,7 @@ class ShootingEvaluation : public ceres::EvaluationCallback {
   int rows() const { return 2 * space_.joints() + static_cast<int>(free_.size()) + 1; }
 
   /// Returns the width below which the integration would no longer follow the friction, rad/s or m/s.
-  double narrowest_width(int joint) const;
+  double narrowest_width(int j) const;
   Eigen::VectorXd parameters() const;
   void PrepareForEvaluation(bool jacobians, bool new_point) override;
   /// Returns the residuals of all excerpts in measured units: [excerpt](2n x rows); NaN if not measured.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -38,14 +40,14 @@ Eigen::VectorXd friction_share(const ParameterSpace& space, const TorqueFit& tor
 }
 
 /// Returns the base parameters of undriven joints to which the driven joints alone give another value.
-std::vector<bool> undriven_parameters(const ParameterSpace& space, const std::vector<int>& undriven,
+std::vector<bool> undriven_parameters(const ParameterSpace& space, const std::vector<Joint>& undriven,
                                       const TorqueFit& torque) {
   std::vector<bool> out(space.rigid(), false);
   if (undriven.empty()) return out;
   WeakSystem driven = torque.system;
   std::vector<bool> felt(space.rigid(), false);
   for (Eigen::Index k = 0; k < driven.y.size(); ++k) {
-    if (!has_joint(undriven, driven.joint[k])) continue;
+    if (!has_joint(undriven, Joint::at(driven.joint[k]))) continue;
     for (int p = 0; p < space.rigid(); ++p) felt[p] = felt[p] || driven.a(k, p) != 0.0;
     driven.use[k] = 0.0;
   }
@@ -68,14 +70,14 @@ Confounded with_offsets(const ParameterSpace& space, const Robot& robot, const T
   const Eigen::MatrixXd a = torque.fit.weight.cwiseSqrt().asDiagonal() * torque.system.a;
   for (int rotor = 0; rotor < space.rigid(); ++rotor) {
     if (!space.base[rotor].is_rotor || !torque.fit.free[rotor] || out.parameters[rotor]) continue;
-    const int joint = space.base[rotor].joint;
-    if (torque.wanted[space.offset(joint)] || robot.known.count("fo" + std::to_string(joint + 1)) > 0)
-      continue;
+    const Joint joint = space.base[rotor].joint;
+    const int offset = space.offset(joint.index());
+    if (torque.wanted[offset] || robot.known.count(fmt::format("fo{}", joint)) > 0) continue;
     std::vector<bool> wanted = torque.fit.free;
-    wanted[space.offset(joint)] = true;
+    wanted[offset] = true;
     const ColumnSelection with = select_columns(a, wanted, space.rigid());
-    if (!with.confounded[space.offset(joint)]) continue;
-    out.leaning.push_back(joint + 1);
+    if (!with.confounded[offset]) continue;
+    out.leaning.push_back(joint);
     for (int p = 0; p < space.rigid(); ++p)
       if (torque.fit.free[p] && with.confounded[p]) out.parameters[p] = true;
   }
@@ -84,7 +86,7 @@ Confounded with_offsets(const ParameterSpace& space, const Robot& robot, const T
 
 }  // namespace
 
-std::vector<int> undriven_joints(const TorqueFit& torque) {
+std::vector<Joint> undriven_joints(const TorqueFit& torque) {
   const ParameterSpace& space = torque.space;
   const int n = space.joints();
   const Eigen::VectorXd friction = friction_share(space, torque);
@@ -95,19 +97,19 @@ std::vector<int> undriven_joints(const TorqueFit& torque) {
       rows[torque.system.joint[k]] += 1.0;
     }
   const Eigen::VectorXd rms = square.cwiseQuotient(rows.cwiseMax(1.0)).cwiseSqrt();
-  std::vector<int> undriven;
+  std::vector<Joint> undriven;
   for (int j = 0; j < n; ++j)
     for (int other = 0; other < n; ++other)
       if (space.chain.geometry[other].kind == space.chain.geometry[j].kind && rows[j] > 0.0 &&
           (rms[j] < kUndrivenShare * rms[other] || (rms[j] < rms[other] && friction[j] > kFrictionAlone))) {
-        undriven.push_back(j + 1);
+        undriven.push_back(Joint::at(j));
         break;
       }
   return undriven;
 }
 
-Confounded confounded_parameters(const Robot& robot, const std::vector<int>& still,
-                                 const std::vector<int>& undriven, const TorqueFit& torque) {
+Confounded confounded_parameters(const Robot& robot, const std::vector<Joint>& still,
+                                 const std::vector<Joint>& undriven, const TorqueFit& torque) {
   const ParameterSpace& space = torque.space;
   const std::vector<bool> otherwise = undriven_parameters(space, undriven, torque);
   std::vector<bool> confounded = torque.fit.confounded;

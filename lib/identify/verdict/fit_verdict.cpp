@@ -120,7 +120,7 @@ double rotor_beside(const Identification& id, int mass) {
 /// Returns `unexplained` if masses are implausible and the robot file gives no mass.
 std::optional<FitStatus> implausible(const Identification& id) {
   for (int j = 0; j < id.space.joints(); ++j)
-    if (id.robot.known.contains(fmt::format("m{}", j + 1))) return std::nullopt;
+    if (id.robot.known.contains(fmt::format("m{}", Joint::at(j)))) return std::nullopt;
   std::vector<std::string> reasons;
   for (int p = 0; p < id.space.rigid(); ++p) {
     const double mass = id.estimate[p];
@@ -142,10 +142,10 @@ std::optional<FitStatus> implausible(const Identification& id) {
   return FitStatus{IdentificationStatus::unexplained, fmt::format("{}", fmt::join(reasons, "; "))};
 }
 
-std::optional<FitStatus> unexplained(const std::vector<double>& r2, const std::vector<int>& still) {
-  std::vector<int> joints;
+std::optional<FitStatus> unexplained(const std::vector<double>& r2, const std::vector<Joint>& still) {
+  std::vector<Joint> joints;
   for (int j = 0; j < static_cast<int>(r2.size()); ++j)
-    if (!(r2[j] >= kExplained) && !has_joint(still, j)) joints.push_back(j + 1);
+    if (!(r2[j] >= kExplained) && !has_joint(still, Joint::at(j))) joints.push_back(Joint::at(j));
   if (joints.empty()) return std::nullopt;
   return FitStatus{
       IdentificationStatus::unexplained,
@@ -156,16 +156,16 @@ std::optional<FitStatus> unexplained(const std::vector<double>& r2, const std::v
 /// Returns `poorly_explained` for the first moving, driven joint whose torque is explained in part only, or
 /// not in held-out windows.
 std::optional<FitStatus> poorly_explained(const std::vector<double>& r2, const std::vector<double>& held_out,
-                                          const std::vector<int>& exempt) {
+                                          const std::vector<Joint>& exempt) {
   for (int j = 0; j < static_cast<int>(r2.size()); ++j) {
-    if (has_joint(exempt, j)) continue;
+    if (has_joint(exempt, Joint::at(j))) continue;
     if (r2[j] >= kWellExplained && held_out[j] >= kWellExplained) continue;
     return FitStatus{
         IdentificationStatus::poorly_explained,
         fmt::format(
             "joint {}: the model explains {:.0f} % of the torque it was fitted to and {:.0f} % of the "
             "held-out torque, so values are rough: {}",
-            j + 1, 100.0 * std::max(r2[j], 0.0), 100.0 * std::max(held_out[j], 0.0),
+            Joint::at(j), 100.0 * std::max(r2[j], 0.0), 100.0 * std::max(held_out[j], 0.0),
             r2[j] >= kWellExplained ? "the logs are too short for this many parameters; give longer ones"
                                     : "check the load, the gravity and the order of axes, and whether a "
                                       "joint has friction of a kind that the model lacks")};
@@ -190,7 +190,7 @@ std::vector<Range> ranges_of(const Identification& id) {
 struct LeastInertia {
   double value = 0.0;  ///< 0 if none is negative
   double std = 0.0;
-  int joint = 0;          ///< from 0: the joint with the largest part in that direction
+  Joint joint{};          ///< the joint with the largest part in that direction
   double at_joint = 0.0;  ///< its inertia while the others are at rest
 };
 
@@ -209,12 +209,12 @@ LeastInertia least_inertia(const ParameterSpace& space, const Identification& id
     const Eigen::MatrixXd other = inertia_matrix(chain_from(space, more), q);
     gradient[p] = direction.dot((other - matrix) * direction);
   }
-  Eigen::Index joint = 0;
-  direction.cwiseAbs().maxCoeff(&joint);
+  Eigen::Index j = 0;
+  direction.cwiseAbs().maxCoeff(&j);
   out.value = value;
   out.std = std::sqrt(std::max(gradient.dot(id.covariance * gradient), 0.0));
-  out.joint = static_cast<int>(joint);
-  out.at_joint = matrix(joint, joint);
+  out.joint = Joint::at(static_cast<int>(j));
+  out.at_joint = matrix(j, j);
   return out;
 }
 
@@ -235,9 +235,9 @@ LeastInertia worst_within(const std::vector<Range>& ranges, bool sure, const Ide
 }  // namespace
 
 Identification with_verdict(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
-                            const std::vector<int>& undriven, Identification id) {
+                            const std::vector<Joint>& undriven, Identification id) {
   const WeakSystem& s = torque.system;
-  const std::vector<int>& still = gathered.windows.still;
+  const std::vector<Joint>& still = gathered.windows.still;
   const Eigen::VectorXd residual = s.y - s.a * id.estimate.head(id.space.linear());
   std::vector<RowSums> joints(s.joints);
   std::vector<std::vector<RowSums>> by_log(id.logs.size(), joints);
@@ -257,7 +257,7 @@ Identification with_verdict(const TorqueFit& torque, const ModelChoice& choice, 
   id.trends = parameter_trends(torque);
   id.take(unexplained(id.fit_r2, still));
   id.take(implausible(id));
-  std::vector<int> exempt = still;
+  std::vector<Joint> exempt = still;
   exempt.insert(exempt.end(), undriven.begin(), undriven.end());
   if (id.status == IdentificationStatus::converged)
     id.take(poorly_explained(id.fit_r2, choice.held_out_r2, exempt));
@@ -275,12 +275,12 @@ std::optional<FitStatus> negative_inertia(const Identification& id) {
     worst = worst_within(ranges, true, id);
   }
   if (worst.value == 0.0) return std::nullopt;
-  const bool turns = id.space.chain.geometry[worst.joint].kind == AxisKind::revolute;
+  const bool turns = id.space.chain.geometry[worst.joint.index()].kind == AxisKind::revolute;
   std::string reason = fmt::format(
       "the inertia of joint {} was estimated as {:.4g} {}, and no robot has a negative one: if the "
       "positions are in another unit, such as revolutions or degrees instead of radians, write the unit of "
       "each q into [log.columns] of the robot file",
-      worst.joint + 1, std::min(worst.at_joint, worst.value), turns ? "kg m^2" : "kg");
+      worst.joint, std::min(worst.at_joint, worst.value), turns ? "kg m^2" : "kg");
   return FitStatus{IdentificationStatus::unexplained, std::move(reason)};
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/identify/gathered.hpp"
 #include "lib/identify/identification.hpp"
 #include "lib/identify/torque_fit.hpp"
@@ -11,25 +12,25 @@
 
 namespace faultline {
 
-/// Returns the joints, from 1, of negligible torque beside another of their kind, or of smaller, almost pure
+/// Returns the joints of negligible torque beside another of their kind, or of smaller, almost pure
 /// friction torque.
-std::vector<int> undriven_joints(const TorqueFit& torque);
+std::vector<Joint> undriven_joints(const TorqueFit& torque);
 
 /// Parameters that the logs do not determine apart from others, although the fit gave them a value.
 struct Confounded {
   std::vector<bool> parameters;  ///< those of the fit, and the ones that were found, by parameter
-  std::vector<int> leaning;      ///< joints, from 1, whose mass and rotor assume no friction offset
+  std::vector<Joint> leaning;    ///< joints whose mass and rotor assume no friction offset
 };
 
 /// Finds confounded base parameters beside those of `torque.fit.confounded`:
-/// - masses and inertias that only joints at rest (`still`, from 1) excite: they are not separable from the
+/// - masses and inertias that only joints at rest (`still`) excite: they are not separable from the
 ///   stiction;
-/// - those of `undriven` joints, from 1, to which the driven joints alone give a clearly different value,
+/// - those of `undriven` joints, to which the driven joints alone give a clearly different value,
 ///   since zero mass explains the link of an undriven joint well;
 /// - a rotor and the masses beside it if a friction offset would be mixed with them (m, jr and offset of a
 ///   joint under gravity), but was excluded.
-Confounded confounded_parameters(const Robot& robot, const std::vector<int>& still,
-                                 const std::vector<int>& undriven, const TorqueFit& torque);
+Confounded confounded_parameters(const Robot& robot, const std::vector<Joint>& still,
+                                 const std::vector<Joint>& undriven, const TorqueFit& torque);
 
 /// Least share of a joint's torque that a valid model explains.
 inline constexpr double kExplained = 0.5;
@@ -38,9 +39,9 @@ inline constexpr double kExplained = 0.5;
 /// log, torque delays, the spread between logs, patterns of the residual and trends from log to log. The
 /// status stays, unless a joint is below kExplained or a mass is implausible (`unexplained`), or a joint is
 /// explained in part (`poorly_explained`). Joints that never move are not judged; those with almost no torque
-/// (`undriven`, from 1) cannot be `poorly_explained`.
+/// (`undriven`) cannot be `poorly_explained`.
 Identification with_verdict(const TorqueFit& torque, const ModelChoice& choice, const Gathered& gathered,
-                            const std::vector<int>& undriven, Identification id);
+                            const std::vector<Joint>& undriven, Identification id);
 
 /// Tests for a negative inertia, which no real robot has: if the inertia matrix has a negative eigenvalue
 /// within the range of the logs, or clearly has one at other angles of the joints, returns `unexplained` with

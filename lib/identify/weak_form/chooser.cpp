@@ -76,14 +76,15 @@ std::vector<std::vector<int>> extra_by_joint(const ParameterSpace& space) {
   for (int j = 0; j < space.joints(); ++j)
     for (int i = 0; i < static_cast<int>(space.extra.size()); ++i) {
       const ExtraTerm& term = space.extra[i];
-      if (is_of_shared_drive(term.kind) ? space.chain.shared_drives[term.index].along[j] != 0.0
-                                        : term.joint == j || term.kind == ExtraKind::gear_compliance)
+      if (is_of_shared_drive(term.kind)
+              ? space.chain.shared_drives[term.index].along[j] != 0.0
+              : term.joint == Joint::at(j) || term.kind == ExtraKind::gear_compliance)
         out[j].push_back(i);
     }
   return out;
 }
 
-double gain_at(const WeakChoice& choice, int joint) { return choice.gain.empty() ? 1.0 : choice.gain[joint]; }
+double gain_at(const WeakChoice& choice, int j) { return choice.gain.empty() ? 1.0 : choice.gain[j]; }
 
 /// Returns the scales of the residual, bounded below so that no joint decides alone: an almost undriven joint
 /// is explained best by zero mass.

@@ -78,16 +78,14 @@ class Chooser {
     int at = 0, parameter = 0;
   };
 
-  const Moments& at(int set, int fold, int joint) const {
-    return moments_[(set * folds_ + fold) * joints_ + joint];
-  }
-  std::vector<Column> columns(const WeakChoice& choice, int joint) const;
-  int torque_column(const WeakChoice& choice, int joint) const;
-  int torque_begin(int joint) const;
+  const Moments& at(int set, int fold, int j) const { return moments_[(set * folds_ + fold) * joints_ + j]; }
+  std::vector<Column> columns(const WeakChoice& choice, int j) const;
+  int torque_column(const WeakChoice& choice, int j) const;
+  int torque_begin(int j) const;
   Eigen::VectorXd fit_folds(const WeakChoice& choice, const std::vector<bool>& wanted,
                             const Eigen::VectorXd& scale, const std::function<bool(int)>& uses) const;
   double squared_residual(const Moments& m, const WeakChoice& choice, const Eigen::VectorXd& parameters,
-                          int joint) const;
+                          int j) const;
   Eigen::VectorXd residual_rms(const WeakChoice& choice, const Eigen::VectorXd& parameters) const;
 
   const ParameterSpace& space_;
@@ -105,7 +103,7 @@ struct Gain {
   double mean = 0.0, error = 0.0;
 };
 
-Gain gain_of(const HeldOutError& without, const HeldOutError& with, int joint);
+Gain gain_of(const HeldOutError& without, const HeldOutError& with, int j);
 
 /// Least gain by a term that is kept.
 struct LeastGain {
@@ -114,8 +112,8 @@ struct LeastGain {
   double sure = 1.0;       ///< and standard errors over the folds
 };
 
-/// Whether `with` explains joint `joint`, of torque `torque` rms, better by at least that much.
-bool pays(const HeldOutError& without, const HeldOutError& with, int joint, double torque,
+/// Whether `with` explains joint `j`, of torque `torque` rms, better by at least that much.
+bool pays(const HeldOutError& without, const HeldOutError& with, int j, double torque,
           const LeastGain& worth);
 
 }  // namespace faultline

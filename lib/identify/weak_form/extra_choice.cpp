@@ -27,21 +27,21 @@ constexpr int kGainRefinements = 12;  // steps of the golden section: they deter
 /// Terms that are tried together.
 struct TermGroup {
   std::vector<int> parameters;
-  std::vector<int> joints;  ///< joints that they act on
+  std::vector<Joint> joints;  ///< those that they act on
   LeastGain worth{};
   bool quick = false;
   double promise = 0.0;  ///< gain by the group alone
-  int joint = 0;         ///< joint that gains most
+  Joint joint{};         ///< that gains most
   HeldOutError without{}, with{};
 };
 
 bool is_quick(ExtraKind kind) { return is_ripple(kind) || kind == ExtraKind::gear_compliance; }
 
-std::vector<int> joints_of(const ParameterSpace& space, const ExtraTerm& term) {
+std::vector<Joint> joints_of(const ParameterSpace& space, const ExtraTerm& term) {
   if (!is_of_shared_drive(term.kind)) return {term.joint};
-  std::vector<int> joints;
+  std::vector<Joint> joints;
   for (int j = 0; j < space.joints(); ++j)
-    if (space.chain.shared_drives[term.index].along[j] != 0.0) joints.push_back(j);
+    if (space.chain.shared_drives[term.index].along[j] != 0.0) joints.push_back(Joint::at(j));
   return joints;
 }
 
@@ -78,8 +78,8 @@ TermGroup judged(const Chooser& chooser, const ModelChoice& c, TermGroup group) 
   group.without = error(c.wanted);
   group.with = error(with_group(c.wanted, group));
   group.promise = -1.0;
-  for (const int j : group.joints)
-    if (const double gain = gain_of(group.without, group.with, j).mean; gain > group.promise)
+  for (const Joint j : group.joints)
+    if (const double gain = gain_of(group.without, group.with, j.index()).mean; gain > group.promise)
       group.promise = gain, group.joint = j;
   return group;
 }
@@ -122,14 +122,15 @@ ModelChoice choose_extra(const Chooser& chooser, const std::vector<bool>& asked,
   bool changed = false;
   for (TermGroup& group : groups) {
     if (changed) group = judged(chooser, c, std::move(group));
-    const int j = group.joint;
+    const int j = group.joint.index();
     bool kept = pays(group.without, group.with, j, chooser.torque(c.weak)[j], group.worth);
-    for (const int other : group.joints)
-      kept = kept && !pays(group.with, group.without, other, chooser.torque(c.weak)[other], group.worth);
+    for (const Joint other : group.joints)
+      kept = kept && !pays(group.with, group.without, other.index(), chooser.torque(c.weak)[other.index()],
+                           group.worth);
     kept = kept && can_be(chooser, c, group);
     const ExtraKind kind = space.extra_at(group.parameters.front()).kind;
     const bool many = is_ripple(kind) || is_of_shared_drive(kind);
-    c.terms.push_back({space.name(group.parameters.front()), j, kept, group.without.rms()[j],
+    c.terms.push_back({space.name(group.parameters.front()), group.joint, kept, group.without.rms()[j],
                        group.with.rms()[j], many ? TermKind::candidate : TermKind::parameter});
     if (kept) c.wanted = with_group(c.wanted, group);
     changed = changed || kept;
@@ -158,8 +159,8 @@ ModelChoice choose_gains(const Chooser& chooser, const std::vector<bool>& counts
       if (gain_of(without, with, k).mean > gain_of(without, with, best).mean) best = k;
     }
     kept = kept && !harms;
-    c.terms.push_back({fmt::format("torque_gain_{}", j + 1), best, kept, without.rms()[best],
-                       with.rms()[best], TermKind::candidate});
+    c.terms.push_back({fmt::format("torque_gain_{}", Joint::at(j)), Joint::at(best), kept,
+                       without.rms()[best], with.rms()[best], TermKind::candidate});
     if (kept) c.weak = tried;
   }
   return c;

@@ -96,7 +96,7 @@ class Columns {
       const ExtraTerm& term = space_.extra[i];
       Rows rows = out.middleRows(i * n, n);
       if (term.kind == ExtraKind::load_friction)
-        add_load(term.joint, carried.row(term.joint), rows);
+        add_load(term.joint.index(), carried.row(term.joint.index()), rows);
       else if (is_of_shared_drive(term.kind))
         add_shared(term, rows);
       else if (is_ripple(term.kind))
@@ -119,7 +119,7 @@ class Columns {
     return chain_from(plain, p);
   }
 
-  double logged(int joint, int row) const { return s_.tau(joint, std::clamp(row, 0, s_.rows() - 1)); }
+  double logged(int j, int row) const { return s_.tau(j, std::clamp(row, 0, s_.rows() - 1)); }
   double step(int k) const { return s_.time[k + 1] - s_.time[k]; }
 
   /// Returns M ddq + h + G in the middle of each sample: joints x samples.
@@ -161,14 +161,14 @@ class Columns {
 
   /// Integrates a ripple over a sample at constant velocity.
   void add_ripple(const ExtraTerm& term, Rows out) const {
+    const int j = term.joint.index();
     const double rate = space_.chain.ripples[term.index].rate;
     for (int k = 0; k < out.cols(); ++k) {
-      const double from = rate * s_.q_smooth(term.joint, k), to = rate * s_.q_smooth(term.joint, k + 1);
+      const double from = rate * s_.q_smooth(j, k), to = rate * s_.q_smooth(j, k + 1);
       const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
       const double share = std::abs(half) > 1e-6 ? elementary::sin(half) / half : 1.0;
-      out(term.joint, k) =
-          step(k) * share *
-          (term.kind == ExtraKind::ripple_cosine ? elementary::cos(middle) : elementary::sin(middle));
+      out(j, k) = step(k) * share *
+                  (term.kind == ExtraKind::ripple_cosine ? elementary::cos(middle) : elementary::sin(middle));
     }
   }
 
@@ -193,7 +193,7 @@ class Columns {
       const JointMatrix inertia = inertia_matrix(chain_, q);
       const double between = 0.5 * (step(k) + step(k + 1));
       for (Eigen::Index i = 0; i < terms; ++i) {
-        const int j = space_.extra[i].joint;
+        const int j = space_.extra[i].joint.index();
         if (space_.extra[i].kind != ExtraKind::gear_compliance) continue;
         after.col(j) = inertia.col(j);
         after(j, j) -= chain_.rotor_inertia[j];
@@ -213,10 +213,10 @@ class Columns {
 
 }  // namespace
 
-double weak_width(const ParameterSpace& space, int joint, int k) {
+double weak_width(const ParameterSpace& space, int j, int k) {
   // Factors on the robot's own width: a quarter of a decade apart near usual widths, coarser beyond.
   constexpr double kFactor[kWidths] = {0.01, 0.1, 0.3, 0.56, 1.0, 1.8, 3.0, 5.6, 10.0, 30.0, 100.0, 300.0};
-  return kFactor[k] * space.chain.friction[joint].width;
+  return kFactor[k] * space.chain.friction[j].width;
 }
 
 StretchTerms stretch_terms(const ParameterSpace& space, const Stretch& s, const ExtraSetting& setting) {

@@ -72,8 +72,9 @@ ModelChoice choose_shifts(const Chooser& chooser, const std::vector<bool>& wante
                      chooser.suits_each(settled, single, wanted, chooser.scale(single, wanted), j);
     c.weak.shift[j] = own ? single.shift[j] : settled.shift[j];
     if (single.shift[j] == 0 && c.weak.shift[j] == 0) continue;
-    c.terms.push_back({fmt::format("delay_{}", j + 1), j, c.weak.shift[j] != 0, without.rms()[j],
-                       own || c.weak.shift[j] == 0 ? with.rms()[j] : best.rms()[j], TermKind::delay});
+    c.terms.push_back({fmt::format("delay_{}", Joint::at(j)), Joint::at(j), c.weak.shift[j] != 0,
+                       without.rms()[j], own || c.weak.shift[j] == 0 ? with.rms()[j] : best.rms()[j],
+                       TermKind::delay});
   }
   return c;
 }
@@ -102,7 +103,7 @@ ModelChoice choose_bends(const Chooser& chooser, const std::vector<bool>& asked,
       if (with.rms()[j] < best.rms()[j]) best = with, bent = tried;
     }
     const bool kept = pays(without, best, j, chooser.torque(c.weak)[j], kRare);
-    c.terms.push_back({space.name(space.bend(j)), j, kept, without.rms()[j], best.rms()[j]});
+    c.terms.push_back({space.name(space.bend(j)), Joint::at(j), kept, without.rms()[j], best.rms()[j]});
     if (!kept) continue;
     c.weak = bent;
     c.wanted = wanted;
@@ -160,9 +161,10 @@ ModelChoice choose_terms(const Chooser& chooser, const WantedParameters& paramet
     wanted[p] = true;
     const HeldOutError without = chooser.error(c.weak, c.wanted);
     const HeldOutError with = chooser.error(c.weak, wanted);
-    const int j = space.joint_of(p);
+    const Joint joint = space.joint_of(p);
+    const int j = joint.index();
     const bool kept = pays(without, with, j, chooser.torque(c.weak)[j], p >= space.bend(0) ? kRare : kTerm);
-    c.terms.push_back({space.name(p), j, kept, without.rms()[j], with.rms()[j]});
+    c.terms.push_back({space.name(p), joint, kept, without.rms()[j], with.rms()[j]});
     if (kept) c.wanted = wanted;
   }
   return c;

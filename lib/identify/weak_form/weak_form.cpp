@@ -145,13 +145,13 @@ double residual_block_s(double total_s, double parameters) {
   return std::clamp(total_s / (kBlocksPerParameter * parameters), kShortest_s, kLongest_s);
 }
 
-std::vector<bool> moving_windows(const WeakSets& windows, int set, int joint) {
+std::vector<bool> moving_windows(const WeakSets& windows, int set, int j) {
   const std::vector<WeakWindow>& all = windows.sets[set].all();
-  if (has_joint(windows.still, joint)) return std::vector<bool>(all.size(), false);
+  if (has_joint(windows.still, Joint::at(j))) return std::vector<bool>(all.size(), false);
   double fastest = 0.0;
-  for (const WeakWindow& w : all) fastest = std::max(fastest, w.speed[joint]);
+  for (const WeakWindow& w : all) fastest = std::max(fastest, w.speed[j]);
   std::vector<bool> moving;
-  for (const WeakWindow& w : all) moving.push_back(w.speed[joint] >= kResting * fastest);
+  for (const WeakWindow& w : all) moving.push_back(w.speed[j] >= kResting * fastest);
   return moving;
 }
 
@@ -210,12 +210,12 @@ WeakSystem with_blocks(WeakSystem s, double total_s) {
   return s;
 }
 
-bool is_shown_at_rest(const WeakSystem& system, int p, const std::vector<int>& still) {
+bool is_shown_at_rest(const WeakSystem& system, int p, const std::vector<Joint>& still) {
   double all = 0.0, moving = 0.0;
   for (Eigen::Index k = 0; k < system.a.rows(); ++k) {
     const double square = system.a(k, p) * system.a(k, p);
     all += square;
-    if (!has_joint(still, system.joint[k])) moving += square;
+    if (!has_joint(still, Joint::at(system.joint[k]))) moving += square;
   }
   return moving <= kShown * all;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/identify/weak_form/weak_windows.hpp"
 
 namespace faultline {
@@ -22,7 +23,7 @@ struct WeakSystem {
   Eigen::MatrixXd a;
   Eigen::VectorXd y;
   Eigen::VectorXd use;         ///< 1, or 0 for rows in which the joint rests
-  std::vector<int> joint;      ///< of each row, from 0
+  std::vector<int> joint;      ///< of each row: its index
   std::vector<int> log;        ///< of each row
   std::vector<double> time_s;  ///< of each row: start of its window
   std::vector<int> block;      ///< of each row: block of time (residual_block_s()) of one log
@@ -47,10 +48,10 @@ WeakSystem assemble(const WeakSets& windows, const WeakChoice& choice);
 WeakSystem with_blocks(WeakSystem system, double total_s);
 
 /// Returns, by window of the set, whether joint `j` moves enough to distinguish its friction from stiction.
-std::vector<bool> moving_windows(const WeakSets& windows, int set, int joint);
+std::vector<bool> moving_windows(const WeakSets& windows, int set, int j);
 
-/// Whether only the `still` joints, from 1, have entries in column `p` of the system, up to noise.
-bool is_shown_at_rest(const WeakSystem& system, int p, const std::vector<int>& still);
+/// Whether only the `still` joints have entries in column `p` of the system, up to noise.
+bool is_shown_at_rest(const WeakSystem& system, int p, const std::vector<Joint>& still);
 
 /// Solution of the windows' equations for the linear parameters of the space.
 struct WeakFit {

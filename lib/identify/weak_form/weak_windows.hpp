@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/identify/motion/stretch.hpp"
 #include "lib/identify/parameter_space.hpp"
 
@@ -15,7 +16,7 @@ namespace faultline {
 inline constexpr int kWidths = 12;
 inline constexpr int kCoulombWidths = 9;  ///< of Coulomb friction: the first, up to 10 times the robot's own
 inline constexpr int kOwnWidth = 4;       ///< the robot's own
-double weak_width(const ParameterSpace& space, int joint, int k);
+double weak_width(const ParameterSpace& space, int j, int k);
 
 /// Setting for the columns of extra terms: properties of the robot that are known before they are fitted.
 struct ExtraSetting {
@@ -103,8 +104,8 @@ struct WeakSets {
   ShiftRange shifts;
   std::vector<WeakWindows> sets;
   ExtraSetting extra;  ///< setting of the columns of the extra terms of `space`
-  /// Joints, from 1, that never move: stiction may carry any torque, so their balances do not count.
-  std::vector<int> still;
+  /// Joints that never move: stiction may carry any torque, so their balances do not count.
+  std::vector<Joint> still;
 
   void add(const Stretch& stretch);
 };

@@ -132,7 +132,7 @@ class Corrections {
     take_usual_step(row_.t);
     unwrap(row);
     row_.take(rows_, row);
-    const std::vector<int>& jumped = jumps_.take(row_, usual_step_);
+    const std::vector<Joint>& jumped = jumps_.take(row_, usual_step_);
     if (static_cast<int>(jumped.size()) < kFewestJumps) {
       kept_.push_back(row);
       return;
@@ -142,7 +142,7 @@ class Corrections {
           {kChangedColumns, "", Severity::severe,
            fmt::format("row {}: from {:.10g} s on the columns of joints {} and {} are swapped; cut the "
                        "log there, or correct the columns",
-                       number_of(row), row_.t, pair->first + 1, pair->second + 1),
+                       number_of(row), row_.t, pair->first, pair->second),
            number_of(row), row_.t, 1});
       kept_.push_back(row);
       return;
@@ -150,12 +150,10 @@ class Corrections {
     begin_cut(row, jumped, earlier);
   }
 
-  void begin_cut(int row, const std::vector<int>& jumped, std::int64_t earlier) {
-    std::vector<int> joints;
-    for (const int j : jumped) joints.push_back(j + 1);
+  void begin_cut(int row, const std::vector<Joint>& jumped, std::int64_t earlier) {
     const bool again = earlier >= 0;
     row_cut_ = {number_of(row),           row_.t,        1,
-                again ? earlier + 1 : -1, again ? 1 : 0, fmt::format("{}", fmt::join(joints, ", "))};
+                again ? earlier + 1 : -1, again ? 1 : 0, fmt::format("{}", fmt::join(jumped, ", "))};
   }
 
   /// Whether the row is left out behind a break: it repeats an earlier row as the rows before it do, or is
@@ -212,7 +210,7 @@ class Corrections {
         positions[j][row] = angles[j].unwrapped(rows_.time[row], before, dq, longest);
         if (!angles[j].has_wrapped()) continue;
         corrections_.add(
-            {"angle_unwrapped", to_string({quantity, static_cast<int>(j) + 1}), Severity::note,
+            {"angle_unwrapped", to_string({quantity, Joint::at(static_cast<int>(j))}), Severity::note,
              fmt::format("row {}: jumps by a turn to {:.4g} rad while the joint continues to move; the "
                          "angle was logged within one turn and is continued beyond it",
                          number_of(row), before),

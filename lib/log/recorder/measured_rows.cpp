@@ -78,7 +78,7 @@ void PositionJumps::learn(int j) {
   usual_[j] += learned_[j] < kEnoughOfJumps ? (off - usual_[j]) / learned_[j] : share * (off - usual_[j]);
 }
 
-const std::vector<int>& PositionJumps::take(const MeasuredRow& row, double usual_step_s) {
+const std::vector<Joint>& PositionJumps::take(const MeasuredRow& row, double usual_step_s) {
   jumped_.clear();
   if (!row.has_velocity) return jumped_;
   std::swap(last_, now_);
@@ -91,18 +91,18 @@ const std::vector<int>& PositionJumps::take(const MeasuredRow& row, double usual
   longest_s_ = std::max(step, usual_step_s);
   for (int j = 0; j < row.joints && follows; ++j) {
     if (learned_[j] == kEnoughOfJumps && jumps(j, j))
-      jumped_.push_back(j);
+      jumped_.push_back(Joint::at(j));
     else
       learn(j);
   }
   return jumped_;
 }
 
-std::optional<std::pair<int, int>> PositionJumps::swapped() const {
+std::optional<std::pair<Joint, Joint>> PositionJumps::swapped() const {
   if (jumped_.size() != 2) return {};
-  const int a = jumped_[0], b = jumped_[1];
+  const int a = jumped_[0].index(), b = jumped_[1].index();
   if (jumps(a, b) || jumps(b, a)) return {};
-  return std::pair{a, b};
+  return std::pair{jumped_[0], jumped_[1]};
 }
 
 bool StoppedRecorder::moves_within(double seconds) const {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/log/log.hpp"
 
 namespace faultline {
@@ -68,22 +69,22 @@ class StoppedRecorder {
 /// without velocities has no jumps.
 class PositionJumps {
  public:
-  /// Returns the joints, from 0, that jump between the row before and this one, at this usual step of time.
-  const std::vector<int>& take(const MeasuredRow& row, double usual_step_s);
+  /// Returns the joints that jump between the row before and this one, at this usual step of time.
+  const std::vector<Joint>& take(const MeasuredRow& row, double usual_step_s);
   /// After take(): the two joints that continue as each other from this row on, if any.
-  std::optional<std::pair<int, int>> swapped() const;
+  std::optional<std::pair<Joint, Joint>> swapped() const;
 
  private:
   /// Returns how far, beyond what velocities allow, joint `to` now is from joint `from` before, in rad or m.
   double excess(int from, int to) const;
   bool jumps(int from, int to) const;
-  void learn(int joint);
+  void learn(int j);
 
   MeasuredRow last_, now_;
   double shortest_s_ = 0.0, longest_s_ = 0.0;
   std::vector<double> usual_;  ///< mean distance from the position that the velocities predict, by joint
   std::vector<int> learned_;   ///< rows in that mean, up to kEnoughOfJumps
-  std::vector<int> jumped_;
+  std::vector<Joint> jumped_;
 };
 
 /// Stores the latest rows by a hash of all their digits, to find repeated rows.

@@ -30,9 +30,9 @@ bool DelayedTorque::fill(LogSource& source) {
   return true;
 }
 
-double DelayedTorque::torque_at(int joint, double t) {
-  const std::vector<double>& tau = tau_[joint];
-  std::size_t& k = position_[joint];
+double DelayedTorque::torque_at(int j, double t) {
+  const std::vector<double>& tau = tau_[j];
+  std::size_t& k = position_[j];
   while (k < time_.size() && time_[k] < t) ++k;
   if (k == 0) return tau.front();
   if (k == time_.size()) return tau.back();

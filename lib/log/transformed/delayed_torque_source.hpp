@@ -19,7 +19,7 @@ class DelayedTorque {
 
  private:
   bool fill(LogSource& source);
-  double torque_at(int joint, double t);
+  double torque_at(int j, double t);
 
   std::vector<double> delay_s_, gain_;  ///< by joint; further joints have no delay and gain 1
   double ahead_s_ = 0.0;                ///< s, how far the latest torque needed lies after its row

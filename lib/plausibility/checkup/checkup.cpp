@@ -149,8 +149,8 @@ void Checkup::take(const Log& segment) {
       torque_->add(segment.time[i], segment.q, segment.tau, i);
   std::size_t at = 0;
   for_each_joint_channel(segment, [&](const std::vector<double>& values, Channel channel) {
-    const auto joint = static_cast<std::size_t>(channel.joint - 1);
-    const auto& places = channel.quantity == Quantity::q ? places_[joint] : segment.q[joint];
+    const int j = channel.joint.index();
+    const auto& places = channel.quantity == Quantity::q ? places_[j] : segment.q[j];
     ChannelCourse& course = courses_[at++];
     for (std::size_t i = 0; i < values.size(); ++i) course.add(segment.time[i], values[i], places[i]);
   });

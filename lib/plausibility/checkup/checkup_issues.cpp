@@ -115,7 +115,7 @@ void judge_velocity_size(const VelocityRelated& velocity, const std::string& cha
 void judge_joints(const CheckupResult& checkup, Issues& issues) {
   for (std::size_t j = 0; j < checkup.joints.size(); ++j) {
     const auto& [velocity, torque] = checkup.joints[j];
-    const int joint = static_cast<int>(j) + 1;
+    const Joint joint = Joint::at(static_cast<int>(j));
     if (torque.is_against_acceleration())
       issues.add(
           {"torque_against_acceleration", to_string({Quantity::tau, joint}), Severity::warning,

@@ -211,24 +211,24 @@ void TorqueRelation::take() {
   sums_ += torques_.col(kMostStrides);
 }
 
-TorqueRelated TorqueRelation::related(int joint, const Eigen::MatrixXd& inverse) const {
+TorqueRelated TorqueRelation::related(int j, const Eigen::MatrixXd& inverse) const {
   TorqueRelated found;
-  const double count = static_cast<double>(count_), mean = sums_[joint] / count;
+  const double count = static_cast<double>(count_), mean = sums_[j] / count;
   std::vector<double> left;
   int best = kDelays - 1;
   for (int d = kDelays - 1; d >= 0; --d) {  // column d, d strides old, is late by kMostStrides - d
-    const Eigen::VectorXd with = with_[d].col(joint);
-    left.push_back(squares_(joint, d) - with.dot(inverse * with));
+    const Eigen::VectorXd with = with_[d].col(j);
+    left.push_back(squares_(j, d) - with.dot(inverse * with));
     if (left.back() < left[kDelays - 1 - best]) best = d;
   }
-  const Eigen::VectorXd factors = inverse * with_[best].col(joint);
+  const Eigen::VectorXd factors = inverse * with_[best].col(j);
   const double rest = left[kDelays - 1 - best];
-  const double all = squares_(joint, best) - count * mean * mean;
+  const double all = squares_(j, best) - count * mean * mean;
   if (!(all > 0.0) || !(rest > 0.0)) return found;
   found.explained = std::clamp(1.0 - rest / all, 0.0, 1.0);
-  found.inertia = factors[joint];
-  const double t = factors[joint] * factors[joint] / (inverse(joint, joint) * rest);
-  found.correlation = std::copysign(std::sqrt(t / (1.0 + t)), factors[joint]);
+  found.inertia = factors[j];
+  const double t = factors[j] * factors[j] / (inverse(j, j) * rest);
+  found.correlation = std::copysign(std::sqrt(t / (1.0 + t)), factors[j]);
   if (std::abs(found.correlation) > TorqueRelated::kClear && found.explained > kExplained) {
     found.delay_rows = static_cast<double>(stride_) * (valley_of(left) - kMostStrides);
     found.delay_uncertainty_rows = 0.5 + kDoubt_s / period_s_;

@@ -86,7 +86,7 @@ class TorqueRelation {
   };
   void restart();
   void take();
-  TorqueRelated related(int joint, const Eigen::MatrixXd& inverse) const;
+  TorqueRelated related(int j, const Eigen::MatrixXd& inverse) const;
 
   int joints_;
   double period_s_;

@@ -38,8 +38,8 @@ PageFigure residual_figure(const CurveWindow& window, const RunCurves& curves,
   figure.y_label = "largest magnitude, times healthy";
   figure.log_y = true;
   figure.least_y = 0.1;
-  for (std::size_t j = 0; j < window.joints.size(); ++j)
-    add_curve(figure, window, fmt::format("joint {}", j + 1), fmt::format("r{}", j + 1),
+  for (int j = 0; j < std::ssize(window.joints); ++j)
+    add_curve(figure, window, fmt::format("joint {}", Joint::at(j)), fmt::format("r{}", Joint::at(j)),
               window.joints[j].residual);
   if (!curves.healthy_residual.empty())
     figure.limits = {{"largest in healthy logs",
@@ -53,7 +53,7 @@ std::vector<PageFigure> joint_figures(const CurveWindow& window, const RunCurves
   const JointCurves& joint = window.joints[j];
   const bool turns = j < curves.turns.size() && curves.turns[j];
   const AxisKind axis = turns ? AxisKind::revolute : AxisKind::prismatic;
-  const std::string n = std::to_string(j + 1);
+  const std::string n = fmt::format("{}", Joint::at(static_cast<int>(j)));
   auto pair = [&](const char* id, const char* what, const char* unit, const Envelope& measured,
                   const Envelope& healthy, const char* healthy_name, const char* logged_name) {
     PageFigure figure = figure_over(window, id + n, marks);
@@ -122,9 +122,9 @@ void keep_drawable(std::vector<PageFigure>& figures) {
 
 /// The joint to look at: the fault's own, else the one with the largest residual.
 std::size_t joint_of(const FaultFinding& fault, const CurveWindow& window) {
-  const auto joints = static_cast<int>(window.joints.size());
-  if (fault.label.joint > 0 && fault.label.joint <= joints)
-    return static_cast<std::size_t>(fault.label.joint) - 1;
+  const Joint joint = fault.label.joint;
+  if (!joint.is_none() && joint.index() < std::ssize(window.joints))
+    return static_cast<std::size_t>(joint.index());
   std::size_t worst = 0;
   float largest = -1.0f;
   for (std::size_t j = 0; j < window.joints.size(); ++j)

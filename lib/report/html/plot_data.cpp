@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -47,8 +49,8 @@ void put(Json& keys, const std::string& key, const std::vector<float>& values) {
 
 Json window_json(const CurveWindow& window) {
   Json keys = Json::object();
-  for (std::size_t j = 0; j < window.joints.size(); ++j) {
-    const std::string n = std::to_string(j + 1);
+  for (int j = 0; j < std::ssize(window.joints); ++j) {
+    const std::string n = fmt::format("{}", Joint::at(j));
     const JointCurves& joint = window.joints[j];
     put(keys, "r" + n, joint.residual);
     put(keys, "q" + n, joint.q.values);

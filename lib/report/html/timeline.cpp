@@ -23,14 +23,14 @@ constexpr double kEasyTarget = 9.0;  // narrower faults get more to click at
 constexpr double kNearEnd = 92.0;
 constexpr int kLane = 30, kAboveLanes = 6, kFoot = 24;
 
-/// Lane 0 is for faults of no joint.
+/// A lane for the number of each joint; lane 0 is for faults of no joint.
 class Picture {
  public:
   explicit Picture(const Diagnosis& d) : d_(d) {
     axis_ = {.low = d.log.start_s - zero_s_, .high = d.log.end_s - zero_s_, .from_px = 0.0, .to_px = kWhole};
     for (const FaultFinding& f : d.faults) {
-      joints_ = std::max(joints_, f.label.joint);
-      first_lane_ = f.label.joint > 0 ? first_lane_ : 0;
+      joints_ = std::max(joints_, f.label.joint.number());
+      first_lane_ = f.label.joint.is_none() ? 0 : first_lane_;
     }
   }
 
@@ -74,7 +74,7 @@ class Picture {
   }
 
   std::string fault_text(const FaultFinding& f, double room) const {
-    const int y = lane_y(std::max(f.label.joint, 0));
+    const int y = lane_y(std::max(f.label.joint.number(), 0));
     const double onset = place(f.onset_s), alarm = std::isfinite(f.alarm_s) ? place(f.alarm_s) : onset;
     const double end = std::max({std::isfinite(f.end_s) ? place(f.end_s) : kWhole, onset, alarm});
     std::string svg = fmt::format("<a {0} aria-label=\"{1}\">", html_fault_link(f, zero_s_), described(f));

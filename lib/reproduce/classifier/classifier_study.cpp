@@ -167,10 +167,9 @@ alone.)",
   for (int controller = 0; controller < kControllers; ++controller)
     for (int output = 0; output < kFaultClasses; ++output) {
       const bool fault = output < kFaultClasses - 1;
-      ResultRow row{
-          {name_of(controller), numbers[output],
-           fault ? fmt::format("fault in joint {} (fault {})", output + 1, output + 1) : "no fault"},
-          {}};
+      ResultRow row{{name_of(controller), numbers[output],
+                     fault ? fmt::format("fault in joint {0} (fault {0})", Joint::at(output)) : "no fault"},
+                    {}};
       const int patterns = findings_[controller * seeds_].patterns[output];
       row.figures.emplace_back(Measured{{static_cast<double>(patterns / kPatternsPerTrajectory)}});
       row.figures.emplace_back(Measured{{static_cast<double>(patterns)}});

@@ -172,7 +172,7 @@ int table_1_class(int index) {
 
 FaultLabel fault_of_class(int output) {
   if (output == kFaultClasses - 1) return {};
-  return {FaultKind::free_swinging, output + 1};
+  return {FaultKind::free_swinging, Joint::at(output)};
 }
 
 Eigen::Vector4d table_1_prior() {

@@ -17,7 +17,7 @@ constexpr std::uint64_t kRunsNoise = 2'000'000;
 ExperimentRun faulty_run(const Experiment& experiment, const RunSet& set, int index, std::uint64_t seed) {
   Random random = Random::stream(seed, 3);
   ExperimentRun run;
-  run.fault = {FaultKind::free_swinging, 1 + index % experiment.robot.joints()};
+  run.fault = {FaultKind::free_swinging, Joint::at(index % experiment.robot.joints())};
   run.onset_s = random.uniform(set.earliest_onset_s, set.latest_onset_s);
   run.log =
       run_of_moves(experiment.robot, experiment.controller,

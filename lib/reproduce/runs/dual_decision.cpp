@@ -189,7 +189,7 @@ std::vector<Alarms> decide_suspects(const std::vector<SuspectSample>& suspicions
       open = nullptr;
       if (s.largest() < thresholds[t]) continue;
       const Decision decision = decision_of(episode_of(s, classes, thresholds[t]), cases);
-      if (decision.label.joint == 0) continue;
+      if (decision.label.joint.is_none()) continue;
       alarms[t].push_back({s.time_s, decision.label});
       open = &s;
     }

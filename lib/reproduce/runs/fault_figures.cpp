@@ -23,7 +23,7 @@ struct ShownRun {
 
 ShownRun shown_run(const SampleDetector& detector, const Experiment& experiment, double onset_s,
                    std::uint64_t seed) {
-  const ActingFault fault{{FaultKind::free_swinging, kJoint + 1}, onset_s};
+  const ActingFault fault{{FaultKind::free_swinging, Joint::at(kJoint)}, onset_s};
   const Log log = run_of_moves(experiment.robot, experiment.controller,
                                {.duration_s = onset_s + kShownAfter, .fault = fault}, seed);
   const Transitions moves = transitions_of({log});
@@ -49,7 +49,8 @@ std::vector<double> row(const Eigen::MatrixXd& values, int i) {
 PlotPanel residual_panel(const ShownRun& run) {
   PlotPanel panel{.y_label = "residual, half ranges", .series = {}, .y_range = {{-1.5, 1.5}}};
   for (int j = 0; j < run.residual.rows(); ++j)
-    panel.series.push_back({fmt::format("velocity of joint {}", j + 1), run.time, row(run.residual, j)});
+    panel.series.push_back(
+        {fmt::format("velocity of joint {}", Joint::at(j)), run.time, row(run.residual, j)});
   return panel;
 }
 
@@ -64,8 +65,9 @@ PlotPanel motion_panel(const ShownRun& run, const Eigen::MatrixXd& measured, con
 PlotPanel output_panel(const ShownRun& run, const Eigen::MatrixXd& outputs, const char* network) {
   PlotPanel panel{.y_label = fmt::format("{} output", network), .series = {}, .y_range = {{-0.5, 1.5}}};
   for (int i = 0; i < outputs.rows(); ++i)
-    panel.series.push_back({i + 1 < outputs.rows() ? fmt::format("fault in joint {}", i + 1) : "fault-free",
-                            run.time, row(outputs, i)});
+    panel.series.push_back(
+        {i + 1 < outputs.rows() ? fmt::format("fault in joint {}", Joint::at(i)) : "fault-free", run.time,
+         row(outputs, i)});
   return panel;
 }
 

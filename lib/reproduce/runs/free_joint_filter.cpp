@@ -137,7 +137,7 @@ class Threshold {
     }
     if (sum <= 0.0) open_ = false;
     if (alarms.empty() || time_s > alarms.back().time_s + name_s_) return;
-    if (sum > 0.0) alarms.back().label = {FaultKind::free_swinging, largest + 1};
+    if (sum > 0.0) alarms.back().label = {FaultKind::free_swinging, Joint::at(largest)};
   }
 
   Alarms alarms;

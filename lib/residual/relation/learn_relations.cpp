@@ -43,7 +43,7 @@ double largest_rate(std::span<LogSource* const> logs, const SignalRelation& rela
     double last = std::nan(""), last_s = 0.0;
     for (Log segment; log->next(segment);) {
       if (!has_signals(segment, relation)) continue;
-      const std::vector<double>& values = signals_of(segment, relation.target)[relation.joint];
+      const std::vector<double>& values = signals_of(segment, relation.target)[relation.joint.index()];
       for (int k = 0; k < segment.rows(); ++k) {
         if (std::isfinite(last) && segment.time[k] - last_s < kSlope_s) continue;
         if (std::isfinite(last) && std::isfinite(values[k]) && segment.time[k] - last_s < 2.0 * kSlope_s)
@@ -62,7 +62,7 @@ std::vector<SignalRelation> tracking_candidates(const Log& log, double period_s)
     const auto joints = std::min(signals_of(log, target).size(), signals_of(log, reference).size());
     for (int j = 0; j < static_cast<int>(joints); ++j)
       out.push_back({.kind = RelationKind::tracking,
-                     .joint = j,
+                     .joint = Joint::at(j),
                      .target = target,
                      .inputs = {reference},
                      .period_s = period_s});
@@ -114,14 +114,14 @@ std::vector<SignalRelation> candidates(const Log& log, const RelationOptions& op
   for (int j = 0; j < log.joints(); ++j) {
     if (commanded && measured) {
       out.push_back({.kind = RelationKind::actuator,
-                     .joint = j,
+                     .joint = Joint::at(j),
                      .target = *measured,
                      .inputs = {*commanded},
                      .lags = lags_of(kActuatorMemory_s, options.period_s)});
     }
     if (!log.q_ref.empty() && (commanded || measured))
       out.push_back({.kind = RelationKind::control_law,
-                     .joint = j,
+                     .joint = Joint::at(j),
                      .target = commanded ? *commanded : *measured,
                      .inputs = read,
                      .lags = lags_of(kLawMemory_s, options.period_s)});

@@ -67,7 +67,7 @@ void RelationDetector::take(const Log& segment) {
 
 void RelationDetector::look_for_changes(const Log& segment) {
   const auto changes = [&](Quantity quantity, double& first) {
-    const std::vector<double>& values = signals_of(segment, quantity)[relation_.joint];
+    const std::vector<double>& values = signals_of(segment, quantity)[relation_.joint.index()];
     return std::any_of(values.begin(), values.end(), [&](double value) {
       if (std::isnan(first)) first = value;
       return std::isfinite(value) && value != first;

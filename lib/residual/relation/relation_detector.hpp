@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/residual/relation/relation_residual.hpp"
 
 namespace faultline {
@@ -37,7 +38,7 @@ struct RelationSums {
 /// A stretch of a log in which a signal deviates from its relation to others in the healthy logs.
 struct RelationEpisode {
   RelationKind kind = RelationKind::actuator;
-  int joint = 0;  ///< from 0
+  Joint joint{};
   Quantity target = Quantity::tau_meas;
   double onset_s = std::numeric_limits<double>::quiet_NaN();  ///< begin of the deviation
   double alarm_s = std::numeric_limits<double>::quiet_NaN();  ///< first row with a mean beyond its limit

@@ -88,7 +88,7 @@ Moments moments_of(std::span<LogSource* const> logs, const Fold& fold, SignalRel
   LagLine line(relation);
   for_each_row(logs, fold, [&](const Log& segment, int k) {
     if (!has_signals(segment, relation)) return;
-    const double target = signals_of(segment, relation.target)[relation.joint][k];
+    const double target = signals_of(segment, relation.target)[relation.joint.index()][k];
     if (!line.take(segment, k) || !std::isfinite(target)) return;
     moments.add(line.terms(), target);
     relation.low = std::min(relation.low, target);

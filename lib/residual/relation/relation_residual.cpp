@@ -25,7 +25,7 @@ LagLine::LagLine(const SignalRelation& relation)
 /// The input as a target with this rate limit follows it, from the present value of the target on.
 double LagLine::followed(double input, const Log& log, int row, double dt) {
   if (relation_.rate_limit <= 0.0) return input;
-  const double target = signals_of(log, relation_.target)[relation_.joint][row];
+  const double target = signals_of(log, relation_.target)[relation_.joint.index()][row];
   if (rows_ == 0 || !std::isfinite(followed_)) followed_ = std::isfinite(target) ? target : input;
   const double most = relation_.rate_limit * std::min(dt, (kMostBridged + 1) * relation_.period_s);
   followed_ += std::clamp(input - followed_, -most, most);
@@ -48,7 +48,7 @@ bool LagLine::take(const Log& log, int row) {
   const int bridged = rows_ == 0 ? 0 : static_cast<int>(lost);
   const std::size_t kept = reach_ + 1;
   for (std::size_t i = 0; i < relation_.inputs.size(); ++i) {
-    double value = signals_of(log, relation_.inputs[i])[relation_.joint][row];
+    double value = signals_of(log, relation_.inputs[i])[relation_.joint.index()][row];
     if (!std::isfinite(value)) {
       rows_ = 0;
       return false;
@@ -81,7 +81,7 @@ bool RelationResidual::terms_are_known() const {
 }
 
 std::optional<RelationSample> RelationResidual::take(const Log& log, int row) {
-  const double target = signals_of(log, relation_.target)[relation_.joint][row];
+  const double target = signals_of(log, relation_.target)[relation_.joint.index()][row];
   if (!line_.take(log, row)) return std::nullopt;
   if (!terms_are_known()) {
     if (std::isfinite(unknown_s_) && log.time[row] - unknown_s_ < kSettle_s)

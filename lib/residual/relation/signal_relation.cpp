@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kFarDay = 1.65;  // times the normal range of days: one day in a thousand is beyond it
 
-bool has(const Log& log, Quantity quantity, int joint) {
-  return static_cast<int>(signals_of(log, quantity).size()) > joint;
+bool has(const Log& log, Quantity quantity, Joint joint) {
+  return joint.index() < std::ssize(signals_of(log, quantity));
 }
 
 std::optional<Quantity> torque_of(const Log& log, Quantity quantity, bool tau_is_it) {
@@ -31,7 +31,7 @@ std::optional<Quantity> torque_of(const Log& log, Quantity quantity, bool tau_is
 
 /// Name of a quantity without the number of a joint, such as "tau_meas".
 std::string name_of(Quantity quantity) {
-  std::string name = to_string(Channel{quantity, 1});
+  std::string name = to_string(Channel{quantity, 1_joint});
   name.pop_back();
   return name;
 }
@@ -59,9 +59,9 @@ bool all_finite(const std::vector<double>& values) {
 }
 
 bool fits(const SignalRelation& relation, int joints) {
-  const bool shape = relation.joint >= 0 && relation.joint < joints && !relation.inputs.empty() &&
-                     relation.lags >= 0 && relation.lags <= 100 && relation.stride >= 1 &&
-                     relation.stride <= 10'000 && relation.rate_limit >= 0.0 &&
+  const bool shape = !relation.joint.is_none() && relation.joint.index() < joints &&
+                     !relation.inputs.empty() && relation.lags >= 0 && relation.lags <= 100 &&
+                     relation.stride >= 1 && relation.stride <= 10'000 && relation.rate_limit >= 0.0 &&
                      static_cast<int>(relation.weights.size()) == relation.weights_needed() &&
                      relation.term_low.size() + 1 == relation.weights.size() &&
                      relation.term_high.size() == relation.term_low.size();
@@ -123,7 +123,7 @@ void fields(auto& v, MaybeConst<WindowLimit> auto& window) {
 
 void fields(auto& v, MaybeConst<SignalRelation> auto& relation) {
   v.named("kind", relation.kind, relation_kind_from);
-  v.from_one("joint", relation.joint);
+  v("joint", relation.joint);
   v.as("target", relation.target, name_of, quantity_from);
   v.as("inputs", relation.inputs, names_of, quantities_from);
   v("lags", relation.lags);

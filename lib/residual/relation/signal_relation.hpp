@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/joint.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/log.hpp"
 
@@ -34,7 +35,7 @@ struct WindowLimit {
 /// healthy logs.
 struct SignalRelation {
   RelationKind kind = RelationKind::actuator;
-  int joint = 0;  ///< from 0
+  Joint joint{};
   Quantity target = Quantity::tau_meas;
   std::vector<Quantity> inputs{};  ///< of the same joint
   int lags = 0;                    ///< earlier rows that are used beside the row itself

@@ -45,8 +45,8 @@ std::string urdf_link(const Robot& robot, int i) {
       "      <inertia ixx=\"{}\" ixy=\"{}\" ixz=\"{}\" iyy=\"{}\" iyz=\"{}\" izz=\"{}\"/>\n"
       "    </inertial>\n"
       "  </link>\n",
-      i + 1, triple(body.centre), link.mass, inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1),
-      inertia(1, 2), inertia(2, 2));
+      Joint::at(i), triple(body.centre), link.mass, inertia(0, 0), inertia(0, 1), inertia(0, 2),
+      inertia(1, 1), inertia(1, 2), inertia(2, 2));
 }
 
 /// Returns a joint as URDF. URDF requires limits for prismatic joints; unknown here, they are wide.
@@ -65,8 +65,8 @@ std::string urdf_joint(const Robot& robot, int i) {
       "    <dynamics damping=\"{}\" friction=\"{}\"/>\n"
       "{}"
       "  </joint>\n",
-      i + 1, turns ? "continuous" : "prismatic", i ? fmt::format("link{}", i) : "base", i + 1, triple(origin),
-      triple(joint.axis), friction.viscous, friction.coulomb,
+      Joint::at(i), turns ? "continuous" : "prismatic", i ? fmt::format("link{}", Joint::at(i - 1)) : "base",
+      Joint::at(i), triple(origin), triple(joint.axis), friction.viscous, friction.coulomb,
       turns ? "" : "    <limit lower=\"-1000\" upper=\"1000\" effort=\"1e9\" velocity=\"1000\"/>\n");
 }
 
@@ -82,7 +82,7 @@ std::string tip_text(const Robot& robot) {
       "    <child link=\"tip\"/>\n"
       "    <origin xyz=\"{}\"/>\n"
       "  </joint>\n",
-      last + 1, triple(reach * link_direction(robot, last)));
+      Joint::at(last), triple(reach * link_direction(robot, last)));
 }
 
 }  // namespace

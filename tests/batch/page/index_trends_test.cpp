@@ -71,7 +71,7 @@ TEST(IndexTrends, ManyLogsShareAPointAndNoPeakIsLost) {
 TEST(IndexThumbnail, HasABarAFaultAndIsEmptyWithoutASpanOfTime) {
   BatchRow one = row("a.csv", 0.0, 1.0);
   EXPECT_FALSE(has(index_thumbnail(one), "<rect"));
-  one.faults = {{{FaultKind::locked, 2}, 2.5, 5.0, 7.5, 0.9}};
+  one.faults = {{{FaultKind::locked, 2_joint}, 2.5, 5.0, 7.5, 0.9}};
   EXPECT_TRUE(has(index_thumbnail(one),
                   "<rect x=\"40.0\" y=\"7\" width=\"40.0\" height=\"4\"/>"
                   "<rect class=\"f\" x=\"80.0\" y=\"7\" width=\"40.0\" height=\"4\"/>"))

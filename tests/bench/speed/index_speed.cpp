@@ -49,7 +49,7 @@ BatchRow row_of(int i, std::mt19937_64& random) {
   const double onset = row.start_s + 4.0 + 10.0 * share(random);
   row.residual_rms[0] *= 8.0;
   row.faults = {
-      {{kinds[i / 8 % 4], 1 + i % kJoints}, onset, onset + 0.4, row.end_s, 0.6 + 0.4 * share(random)}};
+      {{kinds[i / 8 % 4], Joint::at(i % kJoints)}, onset, onset + 0.4, row.end_s, 0.6 + 0.4 * share(random)}};
   return row;
 }
 

@@ -21,7 +21,8 @@ const Learned& learned() {
 
 Log free_swinging_run() {
   SimulationSpec spec = small_run(7.0);
-  spec.faults = {{FaultKind::free_swinging, 1, kOnset_s, std::numeric_limits<double>::infinity(), 0.0, 0.0}};
+  spec.faults = {
+      {FaultKind::free_swinging, 1_joint, kOnset_s, std::numeric_limits<double>::infinity(), 0.0, 0.0}};
   return simulate(small_robot(), spec, 31).log;
 }
 

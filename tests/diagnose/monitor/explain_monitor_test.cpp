@@ -51,7 +51,7 @@ TEST(ExplainMonitor, WhereSegmentsEndChangesNothing) {
   const ExplainMonitor whole = monitored(m, log, 1 << 20), pieces = monitored(m, log, 37);
   ASSERT_EQ(whole.episodes().size(), 1u);
   ASSERT_EQ(pieces.episodes().size(), 1u);
-  EXPECT_EQ(whole.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_EQ(whole.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2_joint}));
   EXPECT_EQ(whole.episodes()[0].onset_s(), pieces.episodes()[0].onset_s());
   EXPECT_EQ(whole.episodes()[0].fault.evidence, pieces.episodes()[0].fault.evidence);
   EXPECT_EQ(whole.day()[0].value, pieces.day()[0].value);
@@ -90,7 +90,7 @@ TEST(ExplainMonitor, AFaultAtTheBorderOfTwoWindowsIsOneFault) {
   lose_torque(log, 56.0);
   const ExplainMonitor judged = monitored(m, log, 4096);
   ASSERT_EQ(judged.episodes().size(), 1u);
-  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2_joint}));
   EXPECT_NEAR(judged.episodes()[0].onset_s(), 56.0, 0.1);
   EXPECT_NEAR(judged.episodes()[0].end_s, log.time.back(), 1e-9);
 }
@@ -101,7 +101,7 @@ TEST(ExplainMonitor, AFaultThatLastsForSeveralWindowsIsOneFaultWithItsEnd) {
   lose_torque(log, 20.0, 151.0);
   const ExplainMonitor judged = monitored(m, log, 4096);
   ASSERT_EQ(judged.episodes().size(), 1u);
-  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2_joint}));
   EXPECT_NEAR(judged.episodes()[0].onset_s(), 20.0, 0.1);
   EXPECT_NEAR(judged.episodes()[0].end_s, 151.0, 0.2);
 }
@@ -114,14 +114,15 @@ TEST(ExplainMonitor, AFurtherFaultIsFoundBesideOneThatLasts) {
     if (log.time[k] >= 120.0) log.q[2][k] += 0.01;
   const ExplainMonitor judged = monitored(m, log, 4096);
   ASSERT_EQ(judged.episodes().size(), 2u);
-  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2}));
+  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::torque_loss, 2_joint}));
   EXPECT_NEAR(judged.episodes()[0].end_s, log.time.back(), 1e-9);
-  EXPECT_EQ(judged.episodes()[1].fault.label().joint, 3);
+  EXPECT_EQ(judged.episodes()[1].fault.label().joint, 3_joint);
   EXPECT_NEAR(judged.episodes()[1].onset_s(), 120.0, 0.1);
 }
 
 SignalStretch stretch(SignalPair pair, double onset_s, double end_s) {
-  return {.pair = pair, .joint = 1, .onset_s = onset_s, .alarm_s = onset_s, .end_s = end_s, .nats = 500.0};
+  return {
+      .pair = pair, .joint = 1_joint, .onset_s = onset_s, .alarm_s = onset_s, .end_s = end_s, .nats = 500.0};
 }
 
 TEST(ExplainMonitor, AStretchInTheOverlapOfTwoWindowsIsOneFault) {
@@ -161,7 +162,7 @@ TEST(ExplainMonitor, AnEncoderThatIsStuckForSeveralWindowsIsOneFaultWithItsEnd) 
   }
   const ExplainMonitor judged = monitored(m, log, 4096);
   ASSERT_EQ(judged.episodes().size(), 1u);
-  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::stuck_encoder, 2}));
+  EXPECT_EQ(judged.episodes()[0].fault.label(), (FaultLabel{FaultKind::stuck_encoder, 2_joint}));
   EXPECT_NEAR(judged.episodes()[0].onset_s(), 20.0, 0.1);
   EXPECT_NEAR(judged.episodes()[0].end_s, 110.0, 0.1);
 }

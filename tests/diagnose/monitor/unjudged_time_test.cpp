@@ -48,12 +48,12 @@ TEST(UnjudgedTime, LongerOnesSayWhichJointLacksWhatAndWhen) {
   blank(log.tau[1], 600, 1000);
   const auto found = stretches_of(log);
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0].joint, 1);
+  EXPECT_EQ(found[0].joint, 1_joint);
   EXPECT_TRUE(found[0].lacks_position);
   EXPECT_FALSE(found[0].lacks_torque);
   EXPECT_NEAR(found[0].start_s, 2.99, 1e-9);
   EXPECT_NEAR(found[0].end_s, 4.0, 1e-9);
-  EXPECT_EQ(found[1].joint, 2);
+  EXPECT_EQ(found[1].joint, 2_joint);
   EXPECT_TRUE(found[1].lacks_torque);
   EXPECT_EQ(found[1].end_s, log.time.back());
 }
@@ -63,7 +63,7 @@ TEST(UnjudgedTime, AtTheEndTenSamplesAreEnoughForTheJointIsNotJudgedAgain) {
   blank(log.q[1], 980, 1000);
   const auto found = stretches_of(log);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].joint, 2);
+  EXPECT_EQ(found[0].joint, 2_joint);
   log = complete_log();
   blank(log.q[1], 995, 1000);
   EXPECT_TRUE(stretches_of(log).empty());
@@ -74,7 +74,7 @@ TEST(UnjudgedTime, MissingRowsAreAStretchOfAllJoints) {
   append(log, slice(complete_log(), 600, 1000));
   const auto found = stretches_of(log);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].joint, 0);
+  EXPECT_EQ(found[0].joint, Joint());
   EXPECT_NEAR(found[0].end_s - found[0].start_s, 1.01, 1e-9);
 }
 
@@ -109,7 +109,7 @@ std::vector<std::vector<double>*> all_of(Log& log) {
 TEST(UnjudgedTime, EverySecondEmptyRowIsOneStretchOfTheRows) {
   const auto found = stretches_of(thinned([](int k) { return k % 2 == 0; }, all_of));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].joint, 0);
+  EXPECT_EQ(found[0].joint, Joint());
   EXPECT_NEAR(found[0].start_s, 9.99, 1e-9);
   EXPECT_NEAR(found[0].end_s, 19.99, 1e-9);
   EXPECT_NEAR(found[0].share, 0.5, 0.01);
@@ -119,7 +119,7 @@ TEST(UnjudgedTime, EverySecondTorqueOfAJointIsAStretchOfThatJoint) {
   const auto found = stretches_of(
       thinned([](int k) { return k % 2 == 0; }, [](Log& log) { return std::vector{&log.tau[1]}; }));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].joint, 2);
+  EXPECT_EQ(found[0].joint, 2_joint);
   EXPECT_TRUE(found[0].lacks_torque);
   EXPECT_FALSE(found[0].lacks_position);
 }
@@ -135,7 +135,7 @@ TEST(UnjudgedTime, MissingRowsCountLikeEmptyOnes) {
     if (k < 1000 || k % 45 < 10) append(log, slice(whole, k, k + 1));
   const auto found = stretches_of(log);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].joint, 0);
+  EXPECT_EQ(found[0].joint, Joint());
   EXPECT_GT(found[0].share, 0.7);
 }
 

@@ -27,7 +27,7 @@ LogMismatch doubt_of(const Log& log) {
 Log healthy(std::uint64_t seed = 71) { return simulate(known_rrp(), rrp_run(10.0), seed).log; }
 
 Log collision() {
-  return simulate(known_rrp(), rrp_run_with(FaultKind::collision, 2, 3.0, 20.0, 0.3), 73).log;
+  return simulate(known_rrp(), rrp_run_with(FaultKind::collision, 2_joint, 3.0, 20.0, 0.3), 73).log;
 }
 
 void scale(std::vector<double>& values, double by) {
@@ -123,9 +123,10 @@ TEST(QuestionReading, APositionThatJumpsRaisesNoDoubtAboutItsVelocity) {
 
 TEST(QuestionReading, AFaultOfOneJointFromTheFirstRowOnRaisesNoDoubt) {
   for (const auto& [kind, joint, size] :
-       {std::tuple{FaultKind::torque_loss, 1, 0.6}, std::tuple{FaultKind::friction_increase, 2, 5.0},
-        std::tuple{FaultKind::sensor_bias, 1, 0.1}, std::tuple{FaultKind::locked, 2, 0.0},
-        std::tuple{FaultKind::payload_change, 3, 2.0}}) {
+       {std::tuple{FaultKind::torque_loss, 1_joint, 0.6},
+        std::tuple{FaultKind::friction_increase, 2_joint, 5.0},
+        std::tuple{FaultKind::sensor_bias, 1_joint, 0.1}, std::tuple{FaultKind::locked, 2_joint, 0.0},
+        std::tuple{FaultKind::payload_change, 3_joint, 2.0}}) {
     const Log log = simulate(known_rrp(), rrp_run_with(kind, joint, 0.02, size), 74).log;
     EXPECT_TRUE(doubt_of(log).is_empty()) << to_string(kind) << ": " << doubt_of(log).what;
   }

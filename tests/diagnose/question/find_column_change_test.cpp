@@ -53,11 +53,14 @@ TEST(QuestionChange, TellsWhatColumnsMeanFromARowOn) {
 
 TEST(QuestionChange, AFaultOfTheRobotIsNoChangeOfTheColumns) {
   for (const auto& [kind, joint, size] :
-       {std::tuple{FaultKind::torque_loss, 1, 0.6}, std::tuple{FaultKind::friction_increase, 2, 5.0},
-        std::tuple{FaultKind::sensor_bias, 1, 0.1}, std::tuple{FaultKind::locked, 2, 0.0},
-        std::tuple{FaultKind::free_swinging, 1, 0.0}, std::tuple{FaultKind::free_swinging, 2, 0.0},
-        std::tuple{FaultKind::stuck_encoder, 2, 0.0}, std::tuple{FaultKind::torque_sensor_error, 1, 5.0},
-        std::tuple{FaultKind::payload_change, 3, 2.0}}) {
+       {std::tuple{FaultKind::torque_loss, 1_joint, 0.6},
+        std::tuple{FaultKind::friction_increase, 2_joint, 5.0},
+        std::tuple{FaultKind::sensor_bias, 1_joint, 0.1}, std::tuple{FaultKind::locked, 2_joint, 0.0},
+        std::tuple{FaultKind::free_swinging, 1_joint, 0.0},
+        std::tuple{FaultKind::free_swinging, 2_joint, 0.0},
+        std::tuple{FaultKind::stuck_encoder, 2_joint, 0.0},
+        std::tuple{FaultKind::torque_sensor_error, 1_joint, 5.0},
+        std::tuple{FaultKind::payload_change, 3_joint, 2.0}}) {
     const Log log = simulate(known_rrp(), rrp_run_with(kind, joint, kChange_s, size), 73).log;
     const auto found = change_of(log);
     EXPECT_FALSE(found) << to_string(kind) << ": " << found->what;

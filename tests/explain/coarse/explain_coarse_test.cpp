@@ -65,19 +65,19 @@ TEST(ExplainCoarse, AHealthyDayHasNoFault) {
 }
 
 TEST(ExplainCoarse, AStuckEncoderBeginsBetweenItsLastTrueAndItsFirstFalseCode) {
-  for (const int joint : {1, 2, 3}) {
+  for (const int j : {0, 1, 2}) {
     const auto faults = faults_of([&](Log& log) {
       for (std::size_t k = kFaulty; k < log.time.size(); ++k) {
-        log.q[joint - 1][k] = log.q[joint - 1][kFaulty - 1];
-        log.dq[joint - 1][k] = log.dq[joint - 1][kFaulty - 1];
+        log.q[j][k] = log.q[j][kFaulty - 1];
+        log.dq[j][k] = log.dq[j][kFaulty - 1];
       }
     });
-    ASSERT_EQ(faults.size(), 1u) << joint;
-    EXPECT_EQ(faults[0].claim.kind, FaultKind::stuck_encoder) << joint;
-    EXPECT_EQ(faults[0].claim.joint, joint);
-    EXPECT_GT(faults[0].claim.onset_s, kOnset_s - kPeriod_s) << joint;
-    EXPECT_LE(faults[0].claim.onset_s, kOnset_s) << joint;
-    EXPECT_GE(faults[0].alarm_s, kOnset_s) << joint;
+    ASSERT_EQ(faults.size(), 1u) << j;
+    EXPECT_EQ(faults[0].claim.kind, FaultKind::stuck_encoder) << j;
+    EXPECT_EQ(faults[0].claim.joint, Joint::at(j));
+    EXPECT_GT(faults[0].claim.onset_s, kOnset_s - kPeriod_s) << j;
+    EXPECT_LE(faults[0].claim.onset_s, kOnset_s) << j;
+    EXPECT_GE(faults[0].alarm_s, kOnset_s) << j;
   }
 }
 
@@ -88,7 +88,7 @@ TEST(ExplainCoarse, APushIsFoundWithItsOnsetItsEndAndItsForce) {
   ASSERT_EQ(faults.size(), 1u);
   const FaultClaim& push = faults[0].claim;
   EXPECT_EQ(push.kind, FaultKind::collision);
-  EXPECT_EQ(push.joint, 2);
+  EXPECT_EQ(push.joint, 2_joint);
   EXPECT_NEAR(push.onset_s, kOnset_s, 0.01);
   EXPECT_NEAR(push.end_s, kOnset_s + 5 * kPeriod_s, 0.01);
   EXPECT_NEAR(push.size[1], 6.0, 0.5);
@@ -98,7 +98,7 @@ TEST(ExplainCoarse, APushIsFoundWithItsOnsetItsEndAndItsForce) {
 TEST(ExplainCoarse, AMassOnAnInnerLinkIsNamedWithTheLinkAndItsSize) {
   const auto faults = faults_in(day_log(1.03, 9, 0.2));
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::payload_change, 2}));
+  EXPECT_EQ(faults[0].label(), (FaultLabel{FaultKind::payload_change, 2_joint}));
   EXPECT_NEAR(faults[0].claim.size[0], 0.2, 0.03);
   EXPECT_NEAR(faults[0].claim.onset_s, kOnset_s, kPeriod_s);
 }
@@ -110,7 +110,7 @@ TEST(ExplainCoarse, ATorqueThatIsLostDoesNotAlarmBeforeItIsLost) {
     });
     ASSERT_EQ(faults.size(), 1u) << left;
     EXPECT_EQ(faults[0].claim.kind, FaultKind::torque_loss) << left;
-    EXPECT_EQ(faults[0].claim.joint, 1) << left;
+    EXPECT_EQ(faults[0].claim.joint, 1_joint) << left;
     EXPECT_NEAR(faults[0].claim.onset_s, kOnset_s, 0.02) << left;
     EXPECT_NEAR(faults[0].claim.size[0], 1.0 - left, 0.05) << left;
     EXPECT_GE(faults[0].alarm_s, kOnset_s) << left;

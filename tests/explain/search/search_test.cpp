@@ -39,7 +39,7 @@ TEST(DriftSearch, TheBestOnsetIsThatOfTheDrift) {
   ASSERT_FALSE(found.empty());
   const Candidate& best = best_of(found);
   EXPECT_EQ(best.kind, FaultKind::sensor_drift);
-  EXPECT_EQ(best.joint, 2);
+  EXPECT_EQ(best.joint, 2_joint);
   EXPECT_NEAR(best.onset_s, kOnset_s, 0.05);
   EXPECT_DOUBLE_EQ(best.size[0], kDrift);
   EXPECT_GT(best.score, 30.0);

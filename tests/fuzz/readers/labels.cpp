@@ -9,7 +9,8 @@ namespace faultline {
 void feed_labels(const std::string& bytes) {
   const std::string path = file_of("labels.csv", bytes);
   read_or_refuse([&] {
-    for (const LogLabel& label : read_labels(path)) demand(label.label.joint >= 0, "joints count from 1");
+    for (const LogLabel& label : read_labels(path))
+      demand(label.label.joint.number() >= 0, "joints count from 1");
   });
 }
 

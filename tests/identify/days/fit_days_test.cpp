@@ -19,7 +19,7 @@ namespace {
 constexpr double kStiffness = 3000.0;  // N m/rad
 
 /// A drive and a link, with a spring between them; the encoder sits on the drive, friction acts on the link.
-struct Joint {
+struct OneJoint {
   double drive_inertia = 0.0, link_inertia = 1.2;  ///< kg m^2; without a drive's, the gear is rigid
   double coulomb = 3.0;                            ///< N m; viscous friction: a third of it a rad/s
   double encoder_step = 0.0;  ///< rad; above 0, the velocity is the difference of its positions
@@ -33,7 +33,7 @@ constexpr double kBandwidth = 12.0;
 double friction(double coulomb, double speed) { return coulomb * (std::tanh(speed / kWidth) + speed / 3.0); }
 
 /// A sum of sines followed by a controller on the drive, torque held over a row; white noise.
-Log day(const Joint& joint, double period_s, std::uint64_t seed) {
+Log day(const OneJoint& joint, double period_s, std::uint64_t seed) {
   constexpr double kStep_s = 2e-5, kRate[] = {2.1, 4.7, 9.3}, kReach[] = {0.5, 0.2, 0.05};
   Random random(seed);
   double phase[3];
@@ -76,7 +76,7 @@ Log day(const Joint& joint, double period_s, std::uint64_t seed) {
   return log;
 }
 
-BalanceModel fitted(const Joint& joint, double period_s) {
+BalanceModel fitted(const OneJoint& joint, double period_s) {
   std::vector<MemorySource> sources;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) sources.emplace_back(day(joint, period_s, seed), "day");
   std::vector<LogSource*> logs;
@@ -94,7 +94,7 @@ TEST(FitDays, ALightRigidJointThatReversesHasNoSpring) {
 }
 
 TEST(FitDays, AGearThatGivesWayHasItsCompliance) {
-  const Joint joint{.drive_inertia = 0.05};
+  const OneJoint joint{.drive_inertia = 0.05};
   const BalanceModel model = fitted(joint, 0.002);
   EXPECT_NEAR(model.compliance(0) * kStiffness, 1.0, 0.2);
   EXPECT_NEAR(model.setting.compliance[0] / model.compliance(0), 1.0, 0.01);

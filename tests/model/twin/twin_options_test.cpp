@@ -29,7 +29,7 @@ TwinFault& fault_of(TwinOptions& options, FaultKind kind) {
 SimulatedFault drawn(const TwinOptions& options, FaultKind kind, std::uint64_t seed = 1) {
   const UsualMotion motion = motion_of_two_joints();
   Random random(seed);
-  return draw_faults({nullptr, &motion, {}, 0.001, true, options}, {kind, 2}, 3.0, random).front();
+  return draw_faults({nullptr, &motion, {}, 0.001, true, options}, {kind, 2_joint}, 3.0, random).front();
 }
 
 void expect_refused(const TwinOptions& options, const std::string& key) {

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-const OutputMeaning kMeaning{{{FaultKind::free_swinging, 1}, {FaultKind::free_swinging, 2}, {}},
+const OutputMeaning kMeaning{{{FaultKind::free_swinging, 1_joint}, {FaultKind::free_swinging, 2_joint}, {}},
                              Eigen::Vector3d(0.2, 0.3, 0.5)};
 
 /// Outputs that lean to one class for a while, then to another; some missing.

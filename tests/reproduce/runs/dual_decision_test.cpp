@@ -8,7 +8,8 @@
 namespace faultline {
 namespace {
 
-const std::vector<FaultLabel> kClasses = {{FaultKind::free_swinging, 1}, {FaultKind::free_swinging, 2}, {}};
+const std::vector<FaultLabel> kClasses = {
+    {FaultKind::free_swinging, 1_joint}, {FaultKind::free_swinging, 2_joint}, {}};
 
 NetworkSum sum_of(double first, double second) {
   NetworkSum sum;

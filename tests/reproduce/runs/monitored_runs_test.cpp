@@ -19,7 +19,7 @@ TEST(MonitoredRuns, have_the_faults_onsets_and_hours_asked_for) {
       fault_free_s += run.log.rows() * kSamplePeriod;
       continue;
     }
-    EXPECT_EQ(run.fault, (FaultLabel{FaultKind::free_swinging, 1 + faulty++ % 3}));
+    EXPECT_EQ(run.fault, (FaultLabel{FaultKind::free_swinging, Joint::at(faulty++ % 3)}));
     EXPECT_GE(run.onset_s, 2.0);
     EXPECT_LE(run.onset_s, 20.0);
     EXPECT_GT(run.log.time.back(), run.onset_s);

@@ -82,7 +82,7 @@ std::string scrolling(std::string table) {
 std::string difference_table(const RunComparison& comparison, const std::vector<char>& turns) {
   std::vector<HtmlRow> rows;
   for (const SignalDifference& s : comparison.signals)
-    rows.push_back({s.quantity, std::to_string(s.joint), unit_of(s, turns), value_text(s.rms),
+    rows.push_back({s.quantity, fmt::format("{}", s.joint), unit_of(s, turns), value_text(s.rms),
                     value_text(s.largest), std::isnan(s.largest_s) ? "-" : seconds_text(s.largest_s),
                     value_text(s.threshold), percent_text(s.beyond),
                     !s.judged                  ? "not judged"

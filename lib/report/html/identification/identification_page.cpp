@@ -72,7 +72,7 @@ std::string parameter_table(const char* title, const std::vector<ParameterEstima
 std::string term_table(const Identification& id) {
   std::vector<HtmlRow> rows;
   for (const ModelTerm& t : id.terms)
-    rows.push_back({t.name, std::to_string(t.joint + 1), fact_text(t.error_before), fact_text(t.error_after),
+    rows.push_back({t.name, fmt::format("{}", t.joint), fact_text(t.error_before), fact_text(t.error_after),
                     std::string("it ") + term_verdict(t)});
   return html_table(FactTable{"Candidate terms, and the held-out torque residual without and with them",
                               {"term", "joint", "without it", "with it", "outcome"},
@@ -81,10 +81,10 @@ std::string term_table(const Identification& id) {
 
 std::string pattern_table(const Identification& id) {
   std::vector<HtmlRow> rows;
-  for (std::size_t j = 0; j < id.residual_patterns.size(); ++j) {
+  for (int j = 0; j < std::ssize(id.residual_patterns); ++j) {
     const ResidualPattern& p = id.residual_patterns[j];
-    rows.push_back({std::to_string(j + 1), share_text(p.position), share_text(p.speed), share_text(p.torque),
-                    share_text(p.previous)});
+    rows.push_back({fmt::format("{}", Joint::at(j)), share_text(p.position), share_text(p.speed),
+                    share_text(p.torque), share_text(p.previous)});
   }
   return html_table(FactTable{"Patterns of the torque residual, in shares of its variance",
                               {"joint", "position", "speed", "torque", "its value a window before"},
@@ -98,10 +98,10 @@ std::string parameter_tables(const Identification& id) {
 
 std::string fit_tables(const Identification& id) {
   std::vector<HtmlRow> rows;
-  for (std::size_t j = 0; j < id.fit_r2.size(); ++j) {
+  for (int j = 0; j < std::ssize(id.fit_r2); ++j) {
     const AxisKind kind = id.space.chain.geometry[j].kind;
     rows.push_back(
-        {std::to_string(j + 1), r2_text(id.fit_r2[j]), r2_text(nth(id.held_out_r2, j)),
+        {fmt::format("{}", Joint::at(j)), r2_text(id.fit_r2[j]), r2_text(nth(id.held_out_r2, j)),
          fact_text(nth(id.residual_rms, j), torque_unit(kind)),
          fmt::format("{:.2g} ms", 1e3 * nth(id.torque_delay_s, j)),
          fmt::format("{:.3g} {}", nth(id.q_noise, j), position_unit(kind)),
@@ -115,10 +115,10 @@ std::string fit_tables(const Identification& id) {
 
 std::string excitation_tables(const Identification& id) {
   std::vector<HtmlRow> joints, parameters;
-  for (std::size_t j = 0; j < id.excitation.joints.size(); ++j) {
+  for (int j = 0; j < std::ssize(id.excitation.joints); ++j) {
     const JointExcitation& e = id.excitation.joints[j];
     const AxisKind kind = id.space.chain.geometry[j].kind;
-    joints.push_back({std::to_string(j + 1),
+    joints.push_back({fmt::format("{}", Joint::at(j)),
                       fmt::format("{:.3g} to {:.3g} {}", e.q_low, e.q_high, position_unit(kind)),
                       fmt::format("{:.3g} {}", e.fastest_forward, velocity_unit(kind)),
                       fmt::format("{:.3g} {}", e.fastest_back, velocity_unit(kind)), share_text(e.forward),
@@ -217,7 +217,7 @@ std::string render_identification_html(const Identification& id) {
   text += part("parameters", "Parameters", parameter_tables(id));
   text += part("fit", "Fit", fit_tables(id));
   for (int j = 0; j < std::ssize(id.joint_fits); ++j)
-    text += part(fmt::format("joint-{}", j + 1).c_str(), fmt::format("Joint {}", j + 1).c_str(),
+    text += part(fmt::format("joint-{}", Joint::at(j)).c_str(), fmt::format("Joint {}", Joint::at(j)).c_str(),
                  still_figures(joint_figures(id, j)));
   text += part("motion", "Excitation: how well the motion determines the parameters", excitation_tables(id));
   text += part("trend", "From log to log",

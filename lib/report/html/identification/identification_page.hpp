@@ -19,7 +19,7 @@ LinePlot figure_plot(const std::string& title, const std::string& x_label);
 /// One joint (from 0): measured and modelled torque over the log that is explained worst and over the seconds
 /// of it where most is left, what is left over position and speed, friction over speed, and the spectrum of
 /// what is left. Empty without curves, as after reading an identification from JSON.
-std::vector<NamedPlot> joint_figures(const Identification& identification, int joint);
+std::vector<NamedPlot> joint_figures(const Identification& identification, int j);
 
 /// The pictures of a page, to be drawn one by one with render_svg.
 std::vector<NamedPlot> identification_figures(const Identification& identification);

@@ -31,14 +31,14 @@ Span windows_of(const JointFit& fit, int log) {
 }
 
 /// The log of which this joint's torque is explained worst.
-int worst_log(const Identification& id, const JointFit& fit, int joint) {
+int worst_log(const Identification& id, const JointFit& fit, int j) {
   int worst = fit.log.front();
   double least = 2.0;
   for (std::size_t i = 0; i < id.logs.size(); ++i) {
     const std::vector<double>& r2 = id.logs[i].fit_r2;
     const Span span = windows_of(fit, static_cast<int>(i));
-    if (span.begin == span.end || joint >= std::ssize(r2) || !(r2[joint] < least)) continue;
-    least = r2[joint];
+    if (span.begin == span.end || j >= std::ssize(r2) || !(r2[j] < least)) continue;
+    least = r2[j];
     worst = static_cast<int>(i);
   }
   return worst;
@@ -150,76 +150,76 @@ PlotSeries mean_through(const Cloud& cloud) {
 }
 
 /// What is left of the torque over a quantity of the motion.
-NamedPlot left_over(const Identification& id, int joint, const char* quantity, const char* unit,
+NamedPlot left_over(const Identification& id, int j, const char* quantity, const char* unit,
                     const std::vector<double>& values) {
-  const JointFit& fit = id.joint_fits[joint];
+  const JointFit& fit = id.joint_fits[j];
   const Cloud cloud = cloud_of(
       fit, [&](std::size_t k) { return values[k]; }, [&](std::size_t k) { return fit.residual(k); });
-  LinePlot plot = figure_plot(fmt::format("Joint {}: torque residual over {}", joint + 1, quantity),
+  LinePlot plot = figure_plot(fmt::format("Joint {}: torque residual over {}", Joint::at(j), quantity),
                               fmt::format("{}, {}", quantity, unit));
-  plot.panels = {{.y_label = fmt::format("residual, {}", torque_unit(id.space.chain.geometry[joint].kind)),
+  plot.panels = {{.y_label = fmt::format("residual, {}", torque_unit(id.space.chain.geometry[j].kind)),
                   .series = {dots("windows", cloud), mean_through(cloud)}}};
-  return {fmt::format("left-{}-{}", quantity, joint + 1), plot};
+  return {fmt::format("left-{}-{}", quantity, Joint::at(j)), plot};
 }
 
 /// The friction of the identified robot over the speeds of the logs.
-PlotSeries friction_curve(const Identification& id, int joint, const Cloud& cloud) {
+PlotSeries friction_curve(const Identification& id, int j, const Cloud& cloud) {
   PlotSeries out{.name = "identified", .x = {}, .y = {}};
   if (cloud.x.empty()) return out;
   const auto [low, high] = std::minmax_element(cloud.x.begin(), cloud.x.end());
   JointVector dq = JointVector::Zero(id.space.joints());
   for (std::size_t i = 0; i <= kCurve; ++i) {
-    dq[joint] = *low + (*high - *low) * static_cast<double>(i) / static_cast<double>(kCurve);
-    out.x.push_back(dq[joint]);
-    out.y.push_back(friction_torque(id.robot.chain, dq)[joint]);
+    dq[j] = *low + (*high - *low) * static_cast<double>(i) / static_cast<double>(kCurve);
+    out.x.push_back(dq[j]);
+    out.y.push_back(friction_torque(id.robot.chain, dq)[j]);
   }
   return out;
 }
 
-NamedPlot friction_figure(const Identification& id, int joint) {
-  const JointFit& fit = id.joint_fits[joint];
-  const AxisKind kind = id.space.chain.geometry[joint].kind;
+NamedPlot friction_figure(const Identification& id, int j) {
+  const JointFit& fit = id.joint_fits[j];
+  const AxisKind kind = id.space.chain.geometry[j].kind;
   const Cloud cloud = cloud_of(
       fit, [&](std::size_t k) { return fit.dq[k]; },
       [&](std::size_t k) { return fit.measured[k] - (fit.modelled[k] - fit.friction[k]); });
-  LinePlot plot = figure_plot(fmt::format("Joint {}: friction", joint + 1),
+  LinePlot plot = figure_plot(fmt::format("Joint {}: friction", Joint::at(j)),
                               fmt::format("speed, {}", velocity_unit(kind)));
   plot.panels = {
       {.y_label = fmt::format("friction, {}", torque_unit(kind)),
        .series = {dots(std::string(logged_words(id.robot.log.torque)) + " minus inertia and gravity", cloud),
-                  friction_curve(id, joint, cloud)}}};
-  return {fmt::format("friction-{}", joint + 1), plot};
+                  friction_curve(id, j, cloud)}}};
+  return {fmt::format("friction-{}", Joint::at(j)), plot};
 }
 
-NamedPlot spectrum_figure(const Identification& id, int joint) {
-  const ResidualPattern& p = id.residual_patterns[joint];
+NamedPlot spectrum_figure(const Identification& id, int j) {
+  const ResidualPattern& p = id.residual_patterns[j];
   LinePlot plot =
-      figure_plot(fmt::format("Joint {}: spectrum of the torque residual", joint + 1), "frequency, Hz");
-  plot.panels = {{.y_label = fmt::format("rms, {}", torque_unit(id.space.chain.geometry[joint].kind)),
+      figure_plot(fmt::format("Joint {}: spectrum of the torque residual", Joint::at(j)), "frequency, Hz");
+  plot.panels = {{.y_label = fmt::format("rms, {}", torque_unit(id.space.chain.geometry[j].kind)),
                   .series = {{.name = "residual", .x = p.spectrum_hz, .y = p.spectrum}},
                   .log_y = true}};
-  return {fmt::format("spectrum-{}", joint + 1), plot};
+  return {fmt::format("spectrum-{}", Joint::at(j)), plot};
 }
 
 /// Measured and modelled torque, and what is left, of the log that is explained worst: all of it, and the
 /// seconds where most is left.
-std::vector<NamedPlot> torque_figures(const Identification& id, int joint) {
-  const JointFit& fit = id.joint_fits[joint];
+std::vector<NamedPlot> torque_figures(const Identification& id, int j) {
+  const JointFit& fit = id.joint_fits[j];
   if (fit.size() == 0) return {};
-  const AxisKind kind = id.space.chain.geometry[joint].kind;
+  const AxisKind kind = id.space.chain.geometry[j].kind;
   const char* what = kind == AxisKind::revolute ? "torque" : "force";
   const char* logged = logged_words(id.robot.log.torque);
-  const int log = worst_log(id, fit, joint);
+  const int log = worst_log(id, fit, j);
   const Span all = windows_of(fit, log), close = worst_seconds(fit, all);
   const std::string of_log = id.logs.size() > 1 ? fmt::format(", log {}", log + 1) : "";
   std::vector<NamedPlot> plots = {
-      {fmt::format("torque-{}", joint + 1),
-       over_time(fit, all, fmt::format("Joint {}: {} {} and modelled{}", joint + 1, what, logged, of_log),
+      {fmt::format("torque-{}", Joint::at(j)),
+       over_time(fit, all, fmt::format("Joint {}: {} {} and modelled{}", Joint::at(j), what, logged, of_log),
                  torque_unit(kind), logged)}};
   if (close.end - close.begin < all.end - all.begin)
     plots.push_back(
-        {fmt::format("torque-close-{}", joint + 1),
-         over_time(fit, close, fmt::format("Joint {}: largest {} residual{}", joint + 1, what, of_log),
+        {fmt::format("torque-close-{}", Joint::at(j)),
+         over_time(fit, close, fmt::format("Joint {}: largest {} residual{}", Joint::at(j), what, of_log),
                    torque_unit(kind), logged)});
   return plots;
 }
@@ -235,15 +235,15 @@ LinePlot figure_plot(const std::string& title, const std::string& x_label) {
           .panel_height = kHeight};
 }
 
-std::vector<NamedPlot> joint_figures(const Identification& id, int joint) {
-  if (joint >= std::ssize(id.joint_fits) || id.joint_fits[joint].size() == 0) return {};
-  const JointFit& fit = id.joint_fits[joint];
-  const AxisKind kind = id.space.chain.geometry[joint].kind;
-  std::vector<NamedPlot> plots = torque_figures(id, joint);
-  plots.push_back(friction_figure(id, joint));
-  plots.push_back(left_over(id, joint, "position", position_unit(kind), fit.q));
-  plots.push_back(left_over(id, joint, "speed", velocity_unit(kind), fit.dq));
-  if (!id.residual_patterns[joint].spectrum.empty()) plots.push_back(spectrum_figure(id, joint));
+std::vector<NamedPlot> joint_figures(const Identification& id, int j) {
+  if (j >= std::ssize(id.joint_fits) || id.joint_fits[j].size() == 0) return {};
+  const JointFit& fit = id.joint_fits[j];
+  const AxisKind kind = id.space.chain.geometry[j].kind;
+  std::vector<NamedPlot> plots = torque_figures(id, j);
+  plots.push_back(friction_figure(id, j));
+  plots.push_back(left_over(id, j, "position", position_unit(kind), fit.q));
+  plots.push_back(left_over(id, j, "speed", velocity_unit(kind), fit.dq));
+  if (!id.residual_patterns[j].spectrum.empty()) plots.push_back(spectrum_figure(id, j));
   return plots;
 }
 

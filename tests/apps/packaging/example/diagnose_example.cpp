@@ -16,7 +16,8 @@ int main(int argc, char** argv) try {
   const faultline::Diagnosis diagnosis = faultline::diagnose(*log, model, cases);
   std::cout << to_string(diagnosis.verdict) << '\n';
   for (const auto& fault : diagnosis.faults)
-    std::cout << to_string(fault.label.kind) << ' ' << fault.label.joint << ' ' << fault.onset_s << '\n';
+    std::cout << to_string(fault.label.kind) << ' ' << fault.label.joint.number() << ' ' << fault.onset_s
+              << '\n';
   return 0;
 } catch (const faultline::Error& error) {
   std::cerr << error.what() << '\n';
