@@ -95,7 +95,7 @@ std::vector<PageLink> links_of(const fs::path& page) {
   return links;
 }
 
-TEST(DocumentationLinks, EveryLinkLeadsSomewhere) {
+TEST(DocumentationLinks, EveryLinkPointsToAnExistingFile) {
   int checked = 0;
   for (const fs::path& page : pages())
     for (const PageLink& link : links_of(page)) {
@@ -145,7 +145,7 @@ TEST(DocumentationLinks, LinesOfProseAreShort) {
   }
 }
 
-TEST(DocumentationLinks, ALongLineOfProseWouldBeSeen) {
+TEST(DocumentationLinks, TheCheckFindsALongLineOfProse) {
   const TemporaryFolder folder;
   const std::string words(126, 'x'), umlauts = "\u00e4";
   std::string wide;
@@ -155,7 +155,7 @@ TEST(DocumentationLinks, ALongLineOfProseWouldBeSeen) {
   EXPECT_EQ(long_lines_of(page), std::vector<std::string>{words});
 }
 
-TEST(DocumentationLinks, ABrokenAnchorWouldBeSeen) {
+TEST(DocumentationLinks, TheCheckFindsABrokenAnchor) {
   const TemporaryFolder folder;
   const fs::path page = folder.write("page.md",
                                      "# What it is, `here` (a.hpp)\n\n[a](#what) [b](other.md#x)\n\n"
@@ -168,7 +168,7 @@ TEST(DocumentationLinks, ABrokenAnchorWouldBeSeen) {
 }
 
 /// On the site nothing outside of docs/ can be reached.
-TEST(DocumentationLinks, PagesOfTheSiteLinkWithinIt) {
+TEST(DocumentationLinks, PagesOfTheSiteLinkOnlyToPagesOfTheSite) {
   for (const fs::path& page : pages()) {
     if (page == kRoot / "README.md" || page == kRoot / "sample_logs/README.md") continue;
     for (const PageLink& link : links_of(page))
@@ -207,7 +207,7 @@ void expect_styles_load_nothing(const fs::path& style) {
   EXPECT_FALSE(std::regex_search(read_file(style.string()), elsewhere)) << style;
 }
 
-TEST(DocumentationSite, IsBuiltByOneCommandAndLoadsNothingFromElsewhere) {
+TEST(DocumentationSite, OneCommandBuildsASiteThatLoadsNothingFromOtherHosts) {
   SKIP_UNLESS_INSTALLED(std::system("PATH=/usr/bin:$PATH mkdocs --version >/dev/null 2>&1") == 0,
                         "mkdocs is missing");
   const TemporaryFolder folder;
@@ -226,7 +226,7 @@ TEST(DocumentationSite, IsBuiltByOneCommandAndLoadsNothingFromElsewhere) {
   EXPECT_GE(built, static_cast<int>(pages().size()) - 2);
 }
 
-TEST(DocumentationSite, EveryPageStandsInItsNavigation) {
+TEST(DocumentationSite, TheNavigationListsEveryPage) {
   const std::string navigation = read_file((kRoot / "docs/site/mkdocs.yml").string());
   for (const fs::path& page : pages()) {
     const std::string name = fs::relative(page, kRoot / "docs").string();

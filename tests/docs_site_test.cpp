@@ -120,13 +120,13 @@ class DocumentationSitePages : public testing::Test {
 
 #define SKIP_WITHOUT_BROWSER() SKIP_UNLESS_INSTALLED(!chromium_program().empty(), "Chromium is missing")
 
-TEST(DocumentationBlocks, AreCountedInListsToo) {
+TEST(DocumentationBlocks, TheCountOfBlocksIncludesBlocksInLists) {
   EXPECT_EQ(blocks_written_in("# A\n    code\n\n1.  one\n\n        code\n\n    more\n2.  two\n\n- bullet\n"),
             (PageBlocks{2, 1, 3}));
   EXPECT_EQ(blocks_written_in("text\n    goes on\n\n```\n- no item\n```\n"), (PageBlocks{1, 0, 0}));
 }
 
-TEST_F(DocumentationSitePages, ShowCodeAndListsAsTheyAreWritten) {
+TEST_F(DocumentationSitePages, ShowEachCodeBlockAndListOfTheirSource) {
   for (const auto& entry : fs::recursive_directory_iterator(kSiteDocs)) {
     if (entry.path().extension() != ".md") continue;
     EXPECT_EQ(blocks_shown_in(read_file(page_of(entry.path()).string())),
@@ -135,7 +135,7 @@ TEST_F(DocumentationSitePages, ShowCodeAndListsAsTheyAreWritten) {
   }
 }
 
-TEST_F(DocumentationSitePages, FirstPagesHavePicturesWithWords) {
+TEST_F(DocumentationSitePages, TheFirstPagesHavePicturesWithAlternativeText) {
   static const std::regex image(R"re(<img alt="([^"]*)" src="([^"]*)")re");
   for (const char* name : {"index.html", "quick-start.html", "tutorial/first-fault.html"}) {
     const fs::path page = site() / name;
@@ -149,7 +149,7 @@ TEST_F(DocumentationSitePages, FirstPagesHavePicturesWithWords) {
   }
 }
 
-TEST_F(DocumentationSitePages, MenuOfAPhoneStaysSmallUntilItIsOpened) {
+TEST_F(DocumentationSitePages, TheMenuOnAPhoneStaysSmallUntilItIsOpened) {
   SKIP_WITHOUT_BROWSER();
   BrowserPage page({.width = 390, .height = 844});
   page.open((site() / "quick-start.html").string());
@@ -164,7 +164,7 @@ TEST_F(DocumentationSitePages, MenuOfAPhoneStaysSmallUntilItIsOpened) {
   EXPECT_TRUE(page.complaints().empty()) << page.complaints().front();
 }
 
-TEST_F(DocumentationSitePages, SearchFindsASectionInAFolderOfFiles) {
+TEST_F(DocumentationSitePages, SearchFindsSectionsWhenTheSiteIsAFolderOfFiles) {
   SKIP_WITHOUT_BROWSER();
   BrowserPage page;
   page.open((site() / "how-to/columns.html").string());
@@ -181,7 +181,7 @@ TEST_F(DocumentationSitePages, SearchFindsASectionInAFolderOfFiles) {
   EXPECT_TRUE(page.complaints().empty()) << page.complaints().front();
 }
 
-TEST_F(DocumentationSitePages, SearchSaysWhenNothingHasTheWords) {
+TEST_F(DocumentationSitePages, SearchReportsZeroSectionsIfNoneHasAllWords) {
   SKIP_WITHOUT_BROWSER();
   BrowserPage page;
   page.open((site() / "search.html?q=%3Cb%3Exyzzy").string());

@@ -50,7 +50,7 @@ std::string place(const fs::path& path, std::size_t line) {
   return fs::relative(path, kRoot).string() + ":" + std::to_string(line + 1);
 }
 
-TEST(House, NoFileIsTooLongAndFewAreLong) {
+TEST(SourceRules, NoFileIsTooLongAndFewAreLong) {
   const std::vector<fs::path> all = sources({"lib", "formats", "apps"});
   int long_ones = 0;
   for (const fs::path& path : all) {
@@ -62,7 +62,7 @@ TEST(House, NoFileIsTooLongAndFewAreLong) {
 }
 
 /// In formatted sources a function outside a class begins at the margin and ends with a brace at the margin.
-TEST(House, NoFunctionIsTooLong) {
+TEST(SourceRules, NoFunctionIsTooLong) {
   for (const fs::path& path : sources({"lib", "formats", "apps"})) {
     const std::vector<std::string> lines = lines_of(path);
     std::size_t begin = 0;
@@ -79,7 +79,7 @@ TEST(House, NoFunctionIsTooLong) {
 
 /// A header that one source includes, and no test, belongs into the file of that source, unless it is a
 /// concept that is read on its own. May the number only fall.
-TEST(House, FewHeadersHaveOneUser) {
+TEST(SourceRules, FewHeadersAreIncludedByOnlyOneFile) {
   static const std::regex include("#include \"([^\"]+)\"");
   std::map<std::string, int> users;
   for (const fs::path& path : sources({"lib", "formats", "apps", "tests"})) {
@@ -96,14 +96,14 @@ TEST(House, FewHeadersHaveOneUser) {
   EXPECT_LE(with_one, kMostWithOneUser);
 }
 
-TEST(House, NoFolderIsCrowded) {
+TEST(SourceRules, NoFolderHasTooManyFiles) {
   std::map<fs::path, int> files;
   for (const fs::path& path : sources({"lib", "formats", "apps"})) ++files[path.parent_path()];
   for (const auto& [folder, count] : files) EXPECT_LE(count, kMostFiles) << folder;
 }
 
 /// Two types of one name in one program share their compiled members by chance of the linker.
-TEST(House, OneNameIsOneType) {
+TEST(SourceRules, NoTwoTypesHaveTheSameName) {
   static const std::regex type(R"(^(struct|class|enum class) (\w+)( final)?( : .*)? \{)");
   std::map<std::string, std::string> known;
   for (const fs::path& path : sources({"lib", "formats", "apps"})) {
@@ -138,7 +138,7 @@ std::string code_of(const std::string& line) {
 
 /// Constants that run over several lines are named in their first.
 /// So that the builds that compile each file alone prove that each header needs nothing before it.
-TEST(House, ASourceIncludesItsOwnHeaderFirst) {
+TEST(SourceRules, ASourceIncludesItsOwnHeaderFirst) {
   static const std::regex include("#include [<\"]([^>\"]+)[>\"]");
   int checked = 0;
   for (const fs::path& path : sources({"lib", "formats"})) {
@@ -156,7 +156,7 @@ TEST(House, ASourceIncludesItsOwnHeaderFirst) {
   EXPECT_GT(checked, 200);
 }
 
-TEST(House, NumbersThatDecideHaveNames) {
+TEST(SourceRules, NumbersInDecisionsAreNamedConstants) {
   static const std::regex literal(R"((^|[^\w.])(\d+\.\d*(e[-+]?\d+)?|\d+e[-+]?\d+))");
   int checked = 0;
   for (const fs::path& path : sources({"lib/classify", "lib/model", "lib/diagnose", "lib/learn"})) {
@@ -177,7 +177,7 @@ TEST(House, NumbersThatDecideHaveNames) {
 }
 
 /// `python3 tests/list_constants.py FOLDER...` lists them.
-TEST(House, EachNumberThatDecidesSaysWhatItMeans) {
+TEST(SourceRules, EachNumericConstantHasAComment) {
   static const std::regex number(R"(constexpr (double|int|std::int64_t|std::size_t) k\w+ = -?[\d.]+)");
   int checked = 0;
   for (const fs::path& path :
@@ -198,7 +198,7 @@ TEST(House, EachNumberThatDecidesSaysWhatItMeans) {
 }
 
 /// Text leaves the program at one place, which keeps names and cells of others from commanding a terminal.
-TEST(House, OnlyTheGateWritesToStreams) {
+TEST(SourceRules, OnlyTerminalAndAtomicFileWriteToStreams) {
   static const std::regex writing(
       R"(\b(fprintf|printf|fputs|puts|fwrite|fputc|putchar)\(|fmt::print\(|std::c(out|err))");
   const std::vector<std::string> gates{"apps/terminal.cpp", "lib/core/atomic_file.cpp"};
@@ -214,7 +214,7 @@ TEST(House, OnlyTheGateWritesToStreams) {
 
 /// The C library computes these in another way where a processor can fuse operations, and Eigen's arrays take
 /// what is left over from its vectors from there.
-TEST(House, ElementaryFunctionsAreOurOwn) {
+TEST(SourceRules, SourcesCallOnlyElementaryFunctionsOfTheProject) {
   static const std::string functions =
       "(sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|sincos|exp|exp2|expm1|log|log2|"
       "log10|log1p|pow|hypot|cbrt|erf|erfc|lgamma|tgamma|polar|arg|fma)";
@@ -257,11 +257,11 @@ int expect_exact_functions(const std::string& binary) {
 
 /// Whatever is linked in, Ceres and templates of Eigen among it, takes from outside only functions that have
 /// one right result: roots, rounding, remainders.
-TEST(House, TheProgramTakesNoInexactFunctionFromTheCLibrary) {
+TEST(SourceRules, TheProgramImportsNoInexactFunctionOfTheCLibrary) {
   EXPECT_GT(expect_exact_functions(FAULTLINE_PROGRAM), 100);
 }
 
-TEST(House, ThePythonModuleTakesNoInexactFunctionFromTheCLibrary) {
+TEST(SourceRules, ThePythonModuleImportsNoInexactFunctionOfTheCLibrary) {
   SKIP_UNLESS_PYTHON_MODULE();
   EXPECT_GT(expect_exact_functions(faultline::compiled_python_module()), 100);
 }

@@ -108,7 +108,7 @@ TEST(Layering, AStudyIncludesOnlyItselfAndStudiesBelow) {
   EXPECT_GT(expect_order("lib/reproduce", names), 10);
 }
 
-TEST(Layering, FormatsKnowOnlyLogAndCore) {
+TEST(Layering, FormatsIncludeOnlyFormatsLogAndCore) {
   const fs::path root(FAULTLINE_SOURCE_DIR);
   for (const auto& entry : fs::recursive_directory_iterator(root / "formats")) {
     if (!is_source(entry.path())) continue;

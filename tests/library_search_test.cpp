@@ -17,18 +17,18 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kNone;
 
-TEST(LibrarySearch, TheProgramAndItsTestsNameNoRelativeFolder) {
+TEST(LibrarySearch, TheProgramAndItsTestsHaveNoRelativeFolderInTheirRunPath) {
   EXPECT_EQ(relative_search_folders(FAULTLINE_PROGRAM), kNone);
   EXPECT_EQ(relative_search_folders(fs::read_symlink("/proc/self/exe").string()), kNone);
 }
 
-TEST(LibrarySearch, ThePythonModuleNamesNoRelativeFolder) {
+TEST(LibrarySearch, ThePythonModuleHasNoRelativeFolderInItsRunPath) {
   SKIP_UNLESS_PYTHON_MODULE();
   EXPECT_EQ(relative_search_folders(compiled_python_module()), kNone);
 }
 
 /// A library that is no library ends every program that loads it.
-TEST(LibrarySearch, LibrariesThatLieInTheCurrentFolderAreNotLoaded) {
+TEST(LibrarySearch, TheProgramLoadsNoLibraryFromTheCurrentFolder) {
   const TemporaryFolder folder;
   const std::vector<std::string> libraries = dynamic_section(FAULTLINE_PROGRAM).libraries;
   EXPECT_GT(libraries.size(), 10u);
@@ -39,7 +39,7 @@ TEST(LibrarySearch, LibrariesThatLieInTheCurrentFolderAreNotLoaded) {
   EXPECT_EQ(run.out, "faultline " FAULTLINE_VERSION "\n");
 }
 
-TEST(LibrarySearch, AnEmptyPartIsSeen) {
+TEST(LibrarySearch, TheCheckFindsEmptyAndRelativePartsOfARunPath) {
   const TemporaryFolder folder;
   const std::string source = folder.write("main.c", "int main(void) { return 0; }\n");
   const auto built = [&](const std::string& parts) {

@@ -24,12 +24,12 @@ void fail_without_a_package() {
   if (!was_set) ::unsetenv(kInstalled);
 }
 
-TEST(TwoCommands, AMissingPackageIsAFailureUnderTheCommandThatInstallsIt) {
+TEST(InstallAndRunScripts, AMissingPackageFailsTheTestsThatRunShStarts) {
   EXPECT_FATAL_FAILURE(fail_without_a_package(),
                        "Chromium is missing; tests/run.sh should have installed that");
 }
 
-TEST(TwoCommands, TheTestsKnowThatTheirPackagesWereInstalled) {
+TEST(InstallAndRunScripts, RunShInstallsThePackagesAndExportsThatBeforeItStartsTheTests) {
   const std::string script = read_file(FAULTLINE_SOURCE_DIR "/tests/run.sh");
   const std::size_t install = script.find("\nbash apps/install.sh --tests\n"),
                     known = script.find(std::string("export ") + kInstalled + "=1\n"),
@@ -39,7 +39,7 @@ TEST(TwoCommands, TheTestsKnowThatTheirPackagesWereInstalled) {
   EXPECT_LT(known, tests);
 }
 
-TEST(TwoCommands, ABuildFolderOfBeforeTheInstallationBuildsThePythonModuleAfterIt) {
+TEST(InstallAndRunScripts, AnEarlierBuildFolderBuildsThePythonModuleAfterTheInstallation) {
   SKIP_UNLESS_PYTHON_MODULE();
   const TemporaryFolder folder;
   const auto configure = [&](const std::string& option) {

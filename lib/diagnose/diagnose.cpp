@@ -39,32 +39,38 @@ void add_lasting_friction(const MonitoredLog& run, const Model& model, std::vect
       faults.push_back(finding_of(friction, run.log, model.robot.chain));
 }
 
-std::vector<FaultFinding> found_in(const MonitoredLog& run, const Model& model, const CaseBase& cases) {
-  if (run.log.is_tracked) return tracking_findings(run.relation_episodes, model.robot.chain);
+/// What a log shows, and what it cannot show.
+struct LogFindings {
   std::vector<FaultFinding> faults;
-  for (const MonitoredEpisode& episode : run.episodes)
-    faults.push_back(decide_episode(episode, model, cases));
-  for (const SampleAlarm& alarm : run.sample_alarms) faults.push_back(finding_of(alarm));
-  add_lasting_friction(run, model, faults);
-  for (const JudgedStretch& judged : run.stretches)
-    faults.push_back(finding_of(run.relation_episodes[judged.stretch.id], judged, run.log.end_s, model));
-  return faults;
+  std::vector<std::string> cannot_see;
+};
+
+/// Returns what positions and velocities against their references show of a log without torque.
+LogFindings found_by_tracking(const MonitoredLog& run, const Model& model) {
+  LogFindings out{tracking_findings(run.relation_episodes, model.robot.chain), unjudged_spots(run.log)};
+  for (std::string& spot : tracking_spots(model, run.relations_judged_s))
+    out.cannot_see.push_back(std::move(spot));
+  return out;
 }
 
-std::vector<std::string> unseen_by(const MonitoredLog& run, const Model& model) {
-  std::vector<std::string> spots = unjudged_spots(run.log);
-  if (run.log.is_tracked) {
-    for (std::string& spot : tracking_spots(model, run.relations_judged_s)) spots.push_back(std::move(spot));
-    return spots;
-  }
+/// Returns what torque balance, single samples and other signals show of a log.
+LogFindings found_by_torque(const MonitoredLog& run, const Model& model, const CaseBase& cases) {
+  LogFindings out;
+  for (const MonitoredEpisode& episode : run.episodes)
+    out.faults.push_back(decide_episode(episode, model, cases));
+  for (const SampleAlarm& alarm : run.sample_alarms) out.faults.push_back(finding_of(alarm));
+  add_lasting_friction(run, model, out.faults);
+  for (const JudgedStretch& judged : run.stretches)
+    out.faults.push_back(finding_of(run.relation_episodes[judged.stretch.id], judged, run.log.end_s, model));
   for (auto& more :
-       {resting_spots(run.log), blind_spots(model.robot.log.torque, run.log.has_velocity),
+       {unjudged_spots(run.log), resting_spots(run.log),
+        blind_spots(model.robot.log.torque, run.log.has_velocity),
         relation_spots(model.relations, run.relations_judged_s),
         drive_limit_spots(model.relations, run.relations_beyond_s, model.robot.chain),
         weak_spots(model.validation), rough_spots(run.roughness),
         detectability_sentences(model.validation.reach, model.robot.chain), least_size_sentences(model)})
-    spots.insert(spots.end(), more.begin(), more.end());
-  return spots;
+    out.cannot_see.insert(out.cannot_see.end(), more.begin(), more.end());
+  return out;
 }
 
 void note_mismatch(const LogMismatch& doubt, Issues& issues) {
@@ -153,17 +159,6 @@ void check_column_change(LogSource& judged, bool has_log_rows, const Model& mode
               row, change->at_s, 1});
 }
 
-/// Returns the diagnosis, in which a healthy verdict is inconclusive if `joints`, which could not be compared
-/// with a reference, are not empty.
-Diagnosis without_untracked(Diagnosis diagnosis, const std::vector<Joint>& joints) {
-  if (diagnosis.verdict != Verdict::healthy || joints.empty()) return diagnosis;
-  diagnosis.verdict = Verdict::inconclusive;
-  diagnosis.verdict_reason = fmt::format(
-      "joint {} could not be compared with a reference in this log; the other joints follow their references",
-      joints.front());
-  return diagnosis;
-}
-
 }  // namespace
 
 Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
@@ -174,28 +169,24 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   LogSource& judged = settle_log(log, rate, model, doubts, kept);
   const bool can_be_judged = rate.is_models() || doubts.find(kResampled);
   const MonitoredLog run = can_be_judged ? monitor(judged, model, options) : read_unjudged(log, model);
-  std::vector<FaultFinding> faults = found_in(run, model, cases);
+  LogFindings found = run.log.is_tracked ? found_by_tracking(run, model) : found_by_torque(run, model, cases);
   if (can_check_columns(model) && !run.log.is_tracked && !are_explained(run.episodes))
-    check_column_change(judged, &judged == &log, model, faults, doubts);
-  faults = ended_with_run(std::move(faults), run.log.runs);
+    check_column_change(judged, &judged == &log, model, found.faults, doubts);
+  const std::vector<FaultFinding> faults = ended_with_run(std::move(found.faults), run.log.runs);
   Diagnosis diagnosis;
   diagnosis.log = run.log;
   diagnosis.log.issues.merge(doubts);
-  if (run.log.is_tracked)
-    diagnosis.log.judgeable_rows =
-        std::min(run.log.judgeable_rows, rows_tracked(model, run.relations_judged_s));
   diagnosis.model = {model.name, model.sha256, cases.sha256(), notes_of(model), model.grave_doubts};
   diagnosis.program_version = program_version();
   diagnosis.residuals = run.residuals;
   diagnosis.condition = condition_of(run.day, model.robot.chain);
   diagnosis.roughness = run.roughness;
   diagnosis.judged_share = run.judged_share;
-  diagnosis.cannot_see = unseen_by(run, model);
+  diagnosis.cannot_see = std::move(found.cannot_see);
   diagnosis = with_verdict(std::move(diagnosis), faults, model.sample_period_s, power_of(model.validation));
   if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;
   diagnosis.faults = with_runs(std::move(diagnosis.faults), diagnosis.log.runs);
-  if (!run.log.is_tracked) return diagnosis;
-  return without_untracked(std::move(diagnosis), joints_not_tracked(model, run.relations_judged_s));
+  return diagnosis;
 }
 
 }  // namespace faultline

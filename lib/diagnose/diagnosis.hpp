@@ -144,6 +144,7 @@ struct LogFacts {
   int joints = 0;
   bool has_velocity = false;
   bool is_tracked = false;                ///< without torque: compared with references only
+  std::vector<Joint> not_tracked;         ///< of such a log: joints that could not be compared with one
   std::vector<LogRun> runs;               ///< of its clock; one if it never restarts, none without a file
   std::vector<UnjudgedStretch> unjudged;  ///< by start
   std::vector<Joint> resting;             ///< joints that hardly moved compared with the healthy logs

@@ -141,12 +141,17 @@ std::string why_not_healthy(const Diagnosis& diagnosis, double power) {
         100.0 * power);
   if (const std::string rough = why_too_rough(diagnosis.roughness); !rough.empty()) return rough;
   if (const std::string wild = why_large_residual(diagnosis.residuals); !wild.empty()) return wild;
-  const std::string far = beyond_normal(diagnosis.condition, kFarBeyond);
-  if (far.empty()) return "";
-  return fmt::format(
-      "no onset of a fault was found, but the robot has changed since the healthy logs were recorded: {}; if "
-      "the change is intended, learn a model from recent logs",
-      far);
+  if (const std::string far = beyond_normal(diagnosis.condition, kFarBeyond); !far.empty())
+    return fmt::format(
+        "no onset of a fault was found, but the robot has changed since the healthy logs were recorded: {}; "
+        "if the change is intended, learn a model from recent logs",
+        far);
+  if (const std::vector<Joint>& joints = diagnosis.log.not_tracked; !joints.empty())
+    return fmt::format(
+        "joint {} could not be compared with a reference in this log; the other joints follow their "
+        "references",
+        joints.front());
+  return "";
 }
 
 /// States why the log cannot be judged with this model; empty if it can.

@@ -41,11 +41,13 @@ class BadLearning : public testing::Test {
   std::string robot_;
 };
 
-TEST_F(BadLearning, OneTinyLog) { expect_refused(learn(kLog), 3, {"log.csv"}); }
+TEST_F(BadLearning, LearnRefusesOneTinyLog) { expect_refused(learn(kLog), 3, {"log.csv"}); }
 
-TEST_F(BadLearning, OneRow) { expect_refused(learn("t,q1,dq1,tau1\n0,0,1,2\n"), 3, {"log.csv"}); }
+TEST_F(BadLearning, LearnRefusesALogOfOneRow) {
+  expect_refused(learn("t,q1,dq1,tau1\n0,0,1,2\n"), 3, {"log.csv"});
+}
 
-TEST_F(BadLearning, LogOfAnotherRobot) {
+TEST_F(BadLearning, LearnRefusesALogOfAnotherRobot) {
   expect_refused(learn("t,q1,q2,tau1,tau2\n0,0,1,2,3\n1,0,1,2,3\n"), 3, {"log.csv", "2 joints"});
 }
 
@@ -94,51 +96,53 @@ TEST_F(BadLearning, MillimetresTakenForMetresAreRefused) {
   expect_refused(learn(swinging(80.0)), 3, {"q1 is between -80 and 80", "hardly in m", "unit = \"mm\""});
 }
 
-TEST_F(BadLearning, LogWithoutTorque) {
+TEST_F(BadLearning, LearnRefusesALogWithoutTorque) {
   expect_refused(learn("t,q1,dq1\n0,0,1\n0.01,0,1\n"), 3, {"log.csv", "torque"});
 }
 
-TEST_F(BadLearning, LabelsWithoutAColumn) {
+TEST_F(BadLearning, LearnRefusesLabelsWithoutARequiredColumn) {
   expect_refused(learn(kLog, "file,fault\nlog.csv,none\n"), 3, {"labels.csv", "\"joint\"", "onset_s"});
 }
 
-TEST_F(BadLearning, LabelsThatMayBeCutInANumber) {
+TEST_F(BadLearning, LearnRefusesLabelsWithoutAFinalLineBreak) {
   expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked,1,1"), 3,
                  {"labels.csv", "line break"});
 }
 
-TEST_F(BadLearning, LabelsThatAreEmpty) { expect_refused(learn(kLog, "\n"), 3, {"labels.csv", "\"file\""}); }
+TEST_F(BadLearning, LearnRefusesEmptyLabels) {
+  expect_refused(learn(kLog, "\n"), 3, {"labels.csv", "\"file\""});
+}
 
-TEST_F(BadLearning, LabelsWithAnUnknownFault) {
+TEST_F(BadLearning, LearnRefusesLabelsWithAnUnknownFault) {
   expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,broken,1,2\n"), 3,
                  {"labels.csv", "row 2", "broken", "locked"});
 }
 
-TEST_F(BadLearning, LabelsWithTextForANumber) {
+TEST_F(BadLearning, LearnRefusesLabelsWithTextInPlaceOfANumber) {
   expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked,1,soon\n"), 3,
                  {"labels.csv", "row 2, column onset_s", "\"soon\""});
 }
 
-TEST_F(BadLearning, LabelsWithAShortRow) {
+TEST_F(BadLearning, LearnRefusesLabelsWithAShortRow) {
   expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked\n"), 3, {"labels.csv", "row 2"});
 }
 
-TEST_F(BadLearning, LabelsWithAJointThatIsNoWholeNumber) {
+TEST_F(BadLearning, LearnRefusesLabelsWithAnInvalidJointNumber) {
   for (const char* joint : {"1.5", "-1", "nan", "1e30"})
     expect_refused(learn(kLog, std::string("file,fault,joint,onset_s\nlog.csv,locked,") + joint + ",2\n"), 3,
                    {"labels.csv", "row 2, column joint", joint});
 }
 
-TEST_F(BadLearning, LabelsWithAJointThatTheRobotDoesNotHave) {
+TEST_F(BadLearning, LearnRefusesLabelsWithAJointThatTheRobotLacks) {
   expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked,4,2\n"), 2,
                  {"log.csv", "joint 4", "1 joint"});
 }
 
-TEST_F(BadLearning, NothingButFaults) {
+TEST_F(BadLearning, LearnRefusesLogsThatAreAllFaulty) {
   expect_refused(learn(kLog, "file,fault,joint,onset_s\nlog.csv,locked,1,0.02\n"), 2, {"healthy"});
 }
 
-TEST_F(BadLearning, OutputFolderThatIsMissingIsToldBeforeTheWork) {
+TEST_F(BadLearning, LearnRefusesAMissingOutputFolder) {
   expect_refused(learn(kLog, "", folder_.file("no/robot.model")), 3, {"no/robot.model", "cannot be created"});
 }
 

@@ -41,37 +41,41 @@ class BadModel : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(BadModel, Missing) {
+TEST_F(BadModel, DiagnoseRefusesAMissingModel) {
   const std::string log = folder_.write("log.csv", kLog);
   expect_one_sentence(run_program({"diagnose", log, "--model", folder_.file("no.model")}), 3,
                       {"no.model", "No such file"});
 }
 
-TEST_F(BadModel, Empty) { expect_refused("", {"robot.model", "faultline learn"}); }
+TEST_F(BadModel, DiagnoseRefusesAnEmptyModel) { expect_refused("", {"robot.model", "faultline learn"}); }
 
-TEST_F(BadModel, OtherJson) { expect_refused("{\"a\": [1, 2]}", {"robot.model", "not a faultline model"}); }
+TEST_F(BadModel, DiagnoseRefusesAJsonObjectThatIsNotAModel) {
+  expect_refused("{\"a\": [1, 2]}", {"robot.model", "not a faultline model"});
+}
 
-TEST_F(BadModel, JsonThatIsNoObject) { expect_refused("[1, 2]", {"robot.model", "not a faultline model"}); }
+TEST_F(BadModel, DiagnoseRefusesAJsonArrayAsModel) {
+  expect_refused("[1, 2]", {"robot.model", "not a faultline model"});
+}
 
-TEST_F(BadModel, SchemaThatIsNoText) {
+TEST_F(BadModel, DiagnoseRefusesANumberAsSchema) {
   expect_refused("{\"schema\": 3}", {"robot.model", "not a faultline model"});
 }
 
-TEST_F(BadModel, NewerSchema) {
+TEST_F(BadModel, DiagnoseRefusesANewerSchema) {
   expect_refused("{\"schema\": \"faultline/model/7\"}", {"robot.model", "faultline/model/7", "newer"});
 }
 
-TEST_F(BadModel, NothingButTheSchema) {
+TEST_F(BadModel, DiagnoseRefusesAnEarlierSchema) {
   expect_refused("{\"schema\": \"faultline/model/3\"}",
                  {"robot.model", "earlier program", "learn the model again"});
 }
 
-TEST_F(BadModel, NotText) {
+TEST_F(BadModel, DiagnoseRefusesABinaryFileAsModel) {
   expect_refused(std::string("\x7f\x45\x4c\x46\0\0\0\0", 8), {"robot.model", "faultline learn"});
 }
 
 /// One learned model for all that needs a whole one, since learning takes seconds.
-TEST_F(BadModel, WholeModelsAndCaseBasesThatDoNotFit) {
+TEST_F(BadModel, DiagnoseRefusesTruncatedModelsBadCaseBasesAndUnwritableOutputs) {
   const Learned learned = learn_small();
   const std::string text = model_to_json(learned.model);
   const std::string model = folder_.write("good.model", text), cases = case_base_path(model);
@@ -123,7 +127,7 @@ TEST_F(BadModel, WholeModelsAndCaseBasesThatDoNotFit) {
 }
 
 /// Before, the row-by-row look at the log ahead of the diagnosis took it for the model's robot and crashed.
-TEST_F(BadModel, ALogOfFewerOrMoreJointsIsOfAnotherRobot) {
+TEST_F(BadModel, DiagnoseRefusesALogWithFewerOrMoreJointsThanTheModel) {
   std::string model;
   for (const auto& entry : std::filesystem::directory_iterator(FAULTLINE_SOURCE_DIR "/sample_logs/golden")) {
     const std::string name = entry.path().filename().string();
@@ -142,7 +146,7 @@ TEST_F(BadModel, ALogOfFewerOrMoreJointsIsOfAnotherRobot) {
                         3, {"log.csv", "another robot", joints});
 }
 
-TEST_F(BadModel, ALogWithoutAPositionIsNoOtherRobot) {
+TEST_F(BadModel, DiagnoseNamesAMissingPositionAndDoesNotReportAnotherRobot) {
   std::string model;
   for (const auto& entry : std::filesystem::directory_iterator(FAULTLINE_SOURCE_DIR "/sample_logs/golden")) {
     const std::string name = entry.path().filename().string();

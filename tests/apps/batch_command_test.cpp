@@ -21,7 +21,7 @@ int done_before(const ProgramRun& run) {
   return done;
 }
 
-TEST(BatchCommand, TellsEachLogAndTheWorstDecidesTheStatus) {
+TEST(BatchCommand, WritesARowForEachLogAndExitsWithTheWorstStatus) {
   const BatchWorld world;
   world.add_logs(4);
   const std::string out = world.file("out");
@@ -66,7 +66,7 @@ TEST(BatchCommand, IdentifiesTheRobotFromEachHealthyLogForTrends) {
   EXPECT_NE(read_file(out + "/index.html").find("% from median"), std::string::npos);
 }
 
-TEST(BatchCommand, ABadLogIsARowWithItsReasonAndStopsNothing) {
+TEST(BatchCommand, ABadLogGetsARowWithItsReasonAndTheBatchContinues) {
   const BatchWorld world;
   world.add_logs(2);
   write_file(world.logs() + "/day_1/empty.csv", "");
@@ -118,7 +118,7 @@ std::string second_model(const BatchWorld& world) {
   return path;
 }
 
-TEST(BatchCommand, FoldersHaveModelsOfTheirOwn) {
+TEST(BatchCommand, EachFolderIsDiagnosedWithItsOwnModel) {
   const BatchWorld world;
   world.add_logs(4);
   const std::string second = second_model(world), out = world.file("out");
@@ -151,7 +151,7 @@ TEST(BatchCommand, FoldersHaveModelsOfTheirOwn) {
   EXPECT_EQ(differences(out, world.file("all")), std::vector<std::string>{});
 }
 
-TEST(BatchCommand, ALogWithoutAModelIsSaidBeforeAnythingIsDone) {
+TEST(BatchCommand, ALogWithoutAModelIsRefusedBeforeAnyLogIsDiagnosed) {
   const BatchWorld world;
   world.add_logs(4);
   const std::string out = world.file("out");
@@ -171,7 +171,7 @@ TEST(BatchCommand, ALogWithoutAModelIsSaidBeforeAnythingIsDone) {
   EXPECT_NE(refused({"=" + world.model()}).find("give DIR=MODEL"), std::string::npos);
 }
 
-TEST(BatchCommand, OnlyWhatChangedIsDoneAgain) {
+TEST(BatchCommand, ARepeatedBatchRedoesOnlyTheLogsThatAChangeAffects) {
   const BatchWorld world;
   world.add_logs(4);
   const std::string out = world.file("out");
@@ -192,7 +192,7 @@ TEST(BatchCommand, OnlyWhatChangedIsDoneAgain) {
   EXPECT_EQ(done_before(run_program(world.command(out))), 0) << "results of another model were kept";
 }
 
-TEST(BatchCommand, TwoBatchesIntoOneFolderAreRefusedAndWaitWaits) {
+TEST(BatchCommand, ASecondBatchIntoAFolderInUseIsRefused) {
   const BatchWorld world;
   world.add_logs(1);
   const std::string out = world.file("out");
@@ -206,7 +206,7 @@ TEST(BatchCommand, TwoBatchesIntoOneFolderAreRefusedAndWaitWaits) {
   EXPECT_EQ(run_program(world.command(out, {"--wait"})).status, 0);
 }
 
-TEST(BatchCommand, AFullDiskIsSaidAndNothingDoneIsLost) {
+TEST(BatchCommand, AFullDiskIsReportedAndFinishedResultsAreKept) {
   const BatchWorld world;
   world.add_logs(6);
   run_program(world.command(world.file("fresh")));
@@ -223,7 +223,7 @@ TEST(BatchCommand, AFullDiskIsSaidAndNothingDoneIsLost) {
   EXPECT_EQ(differences(out, world.file("fresh")), std::vector<std::string>{});
 }
 
-TEST(BatchCommand, PlacesThatCannotBeUsedAreNamed) {
+TEST(BatchCommand, UnusableOutputFoldersAndShardsAreRefused) {
   const BatchWorld world;
   world.add_logs(1);
   write_file(world.file("file"), "x");
@@ -243,7 +243,7 @@ TEST(BatchCommand, PlacesThatCannotBeUsedAreNamed) {
   EXPECT_EQ(locked.status, 3) << locked.err;
 }
 
-TEST(BatchCommand, NamesThatHoldMarkupStayText) {
+TEST(BatchCommand, ThePageEscapesMarkupInNamesOfLogs) {
   const BatchWorld world;
   world.add_log("<img src=x onerror=alert(1)>\"'&.csv", 4.0, true, 3);
   world.add_log("</script><b>.csv", 4.0, false, 4);

@@ -20,7 +20,7 @@ std::string settings(const BatchWorld& world) {
 
 const std::string kScript = FAULTLINE_SOURCE_DIR "/apps/batch_slurm.sh";
 
-TEST(BatchSlurm, ScriptDoesAPartATaskAndMergesWithoutATaskNumber) {
+TEST(BatchSlurm, TheScriptRunsAShardPerTaskAndMergesWithoutATaskNumber) {
   const BatchWorld world;
   world.add_logs(4);
   const std::string in = settings(world);
@@ -34,7 +34,7 @@ TEST(BatchSlurm, ScriptDoesAPartATaskAndMergesWithoutATaskNumber) {
   EXPECT_NE(shell(in + "MODEL=/none SLURM_ARRAY_TASK_ID=1 bash " + kScript), 0);
 }
 
-TEST(BatchSlurm, ArrayAndMergeOnARealCluster) {
+TEST(BatchSlurm, AnArrayJobAndItsMergeEqualOneBatchOnARealCluster) {
   if (shell("sbatch --version && sinfo -h | grep -q .") != 0) GTEST_SKIP() << "no Slurm answers here";
   const BatchWorld world;
   world.add_logs(4);

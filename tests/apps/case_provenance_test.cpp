@@ -51,7 +51,7 @@ TEST_F(CaseProvenance, AddKeepsPersonDateAndRobot) {
   EXPECT_EQ(nlohmann::json::parse(cases({"show", "7", "--json"}).out).at("date"), "2026-03-02");
 }
 
-TEST_F(CaseProvenance, ADateThatIsNoneIsRefused) {
+TEST_F(CaseProvenance, AnInvalidDateIsRefused) {
   for (const char* date : {"2026-02-30", "yesterday", "2026-2-3", "02.03.2026"})
     EXPECT_EQ(cases({"add", report_, "--date", date}).status, 2) << date;
   ASSERT_EQ(cases({"add", report_, "--date", "2026-02-28", "--robot", "bench 7"}).status, 0);
@@ -59,7 +59,7 @@ TEST_F(CaseProvenance, ADateThatIsNoneIsRefused) {
   EXPECT_EQ(read_case_base(path_).at(7).robot, "bench 7");
 }
 
-TEST_F(CaseProvenance, TheSameReportTwiceIsOneCase) {
+TEST_F(CaseProvenance, AddingTheSameReportTwiceMakesOneCase) {
   ASSERT_EQ(cases({"add", report_}).status, 0);
   const std::string before = read_file(path_);
   const ProgramRun again = cases({"add", report_});
@@ -68,7 +68,7 @@ TEST_F(CaseProvenance, TheSameReportTwiceIsOneCase) {
   EXPECT_EQ(read_file(path_), before);
 }
 
-TEST_F(CaseProvenance, WhatIsToldAnewOfAnEventIsKeptAndSaid) {
+TEST_F(CaseProvenance, ASecondReportOfAnEventUpdatesItsCaseAndIsReported) {
   ASSERT_EQ(cases({"add", report_}).status, 0);
   const ProgramRun told =
       cases({"add", report_, "--fault", "stuck_encoder", "--joint", "2", "--by", "A. Weber"});
@@ -80,7 +80,7 @@ TEST_F(CaseProvenance, WhatIsToldAnewOfAnEventIsKeptAndSaid) {
   EXPECT_EQ(base.at(7).person, "A. Weber");
 }
 
-TEST_F(CaseProvenance, ConfirmAndRejectAreSigned) {
+TEST_F(CaseProvenance, ConfirmAndRejectStoreThePersonAndTheDate) {
   ASSERT_EQ(cases({"add", report_}).status, 0);
   ASSERT_EQ(cases({"confirm", "7", "--by", "A. Weber", "--date", "2026-02-01"}).status, 0);
   EXPECT_EQ(read_case_base(path_).at(7).date, "2026-02-01");
@@ -107,7 +107,7 @@ TEST_F(CaseProvenance, LabelsThatTheRobotCannotHaveAreRefused) {
   EXPECT_EQ(read_file(path_), before);
 }
 
-TEST_F(CaseProvenance, ImportRefusesCasesOfJointsThatTheRobotHasNot) {
+TEST_F(CaseProvenance, ImportRefusesCasesOfJointsThatTheRobotLacks) {
   CaseBase base = read_case_base(path_);
   base.describe_robot({"old", "RR"});
   const std::string other = folder_.file("other.db"), file = folder_.file("other.json");
@@ -131,7 +131,7 @@ TEST_F(CaseProvenance, MergeOfAnotherKindOfRobotIsRefused) {
   EXPECT_TRUE(has(merge.err, "PPR") && has(merge.err, "RRP")) << merge.err;
 }
 
-TEST_F(CaseProvenance, ConfirmedCasesAloneAreExportedAndMergedOnce) {
+TEST_F(CaseProvenance, ExportCanSelectConfirmedCasesAndMergeAddsThemOnce) {
   ASSERT_EQ(cases({"add", report_, "--fault", "locked", "--joint", "2", "--by", "A. Weber"}).status, 0);
   const std::string file = folder_.file("confirmed.json"), other = folder_.file("other.db");
   ASSERT_EQ(cases({"export", "--confirmed", "-o", file}).status, 0);

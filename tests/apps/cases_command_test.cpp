@@ -33,7 +33,7 @@ class CasesCommand : public testing::Test {
   std::string path_ = folder_.file("bench.json.cases.db");
 };
 
-TEST_F(CasesCommand, ListShowsEachCaseAndFilters) {
+TEST_F(CasesCommand, ListShowsAllCasesOrThoseThatMatchAFilter) {
   const ProgramRun all = cases({"list"});
   EXPECT_EQ(all.status, 0) << all.err;
   EXPECT_NE(all.out.find("6 of 6 cases"), std::string::npos) << all.out;
@@ -43,7 +43,7 @@ TEST_F(CasesCommand, ListShowsEachCaseAndFilters) {
   EXPECT_EQ(nlohmann::json::parse(cases({"list", "--json"}).out).size(), 6u);
 }
 
-TEST_F(CasesCommand, ModelNamesTheFileBesideIt) {
+TEST_F(CasesCommand, TheModelOptionSelectsTheCaseBaseBesideTheModel) {
   const ProgramRun run = run_program({"cases", "list", "--model", folder_.file("bench.json")});
   EXPECT_EQ(run.status, 0) << run.err;
 }
@@ -79,7 +79,7 @@ TEST_F(CasesCommand, AddTakesAFaultFromADiagnosis) {
   EXPECT_EQ(base.at(8).decision.kind, FaultKind::locked);
 }
 
-TEST_F(CasesCommand, AddRefusesWhatIsNoDiagnosisAndFaultsThatAreNotThere) {
+TEST_F(CasesCommand, AddRefusesOtherFilesAndFaultsThatTheDiagnosisLacks) {
   const std::string report = folder_.write("report.json", render_json(faulty_diagnosis()));
   const std::string other = folder_.write("other.json", "[1, 2]");
   EXPECT_EQ(cases({"add", report, "--fault-id", "2"}).status, 2);
@@ -97,7 +97,7 @@ TEST_F(CasesCommand, AddRefusesADiagnosisOfAnotherModel) {
   EXPECT_NE(run.err.find("\"other\""), std::string::npos) << run.err;
 }
 
-TEST_F(CasesCommand, ExportAndImportMakeTheSameBase) {
+TEST_F(CasesCommand, AnImportOfAnExportGivesTheSameCaseBase) {
   const std::string file = folder_.file("export.json"), copy = folder_.file("copy.db");
   ASSERT_EQ(cases({"export", "-o", file}).status, 0);
   EXPECT_EQ(cases({"export"}).out, read_file(file));
@@ -109,7 +109,7 @@ TEST_F(CasesCommand, ExportAndImportMakeTheSameBase) {
   EXPECT_EQ(nlohmann::json::parse(merge.out).at("added"), 0);
 }
 
-TEST_F(CasesCommand, ErrorsSayWhatIsWrong) {
+TEST_F(CasesCommand, WrongArgumentsExitWithStatus2AndUnreadableFilesWith3) {
   EXPECT_EQ(cases({"show", "99"}).status, 2);
   EXPECT_EQ(cases({"confirm", "1", "--fault", "rust"}).status, 2);
   EXPECT_EQ(cases({"confirm", "1", "--joint", "2"}).status, 2);
@@ -127,7 +127,7 @@ TEST_F(CasesCommand, HelpShowsAnExampleOfEachAction) {
   }
 }
 
-TEST_F(CasesCommand, AnImportThatDoesNotFitLeavesNothing) {
+TEST_F(CasesCommand, AnImportThatFillsTheDiskLeavesNoFile) {
   const std::string file = folder_.file("export.json"), copy = folder_.file("copy.db");
   ASSERT_EQ(cases({"export", "-o", file}).status, 0);
   const ProgramRun run = run_program({"cases", "import", file, "--cases", copy}, {.file_size_limit = 8192});

@@ -21,7 +21,7 @@ TEST(CommandLine, HelpNamesEveryExitStatus) {
     EXPECT_NE(run.out.find(word), std::string::npos) << word;
 }
 
-TEST(CommandLine, NoSubcommandIsAUsageError) {
+TEST(CommandLine, AMissingSubcommandIsAUsageError) {
   const ProgramRun run = run_program({});
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.out, "");
@@ -46,14 +46,14 @@ TEST(CommandLine, StandardOutputThatIsFullIsAFileError) {
   EXPECT_NE(run.err.find("standard output"), std::string::npos) << run.err;
 }
 
-TEST(CommandLine, AReaderThatHasSeenEnoughIsNoError) {
+TEST(CommandLine, HelpIntoAClosedPipeEndsBySigpipe) {
   const ProgramRun run = run_command(
       {"bash", "-c",
        std::string("{ sleep 0.3; ") + FAULTLINE_PROGRAM + " --help; echo status $? >&2; } | true"});
   EXPECT_EQ(run.err, "status 141\n");  // 128 and SIGPIPE
 }
 
-TEST(CommandLine, AReaderThatLeavesEarlyIsNoErrorOfAReportEither) {
+TEST(CommandLine, AReportIntoAClosedPipeKeepsItsExitStatus) {
   const std::string golden = std::string(FAULTLINE_SOURCE_DIR) + "/sample_logs/golden";
   for (const char* format : {"--md", "--json", "--csv"}) {
     const ProgramRun run =
@@ -72,7 +72,7 @@ TEST(CommandLine, InspectHelpShowsAnExample) {
   EXPECT_NE(run.out.find("Example"), std::string::npos) << run.out;
 }
 
-TEST(CommandLine, ModesAndCriteriaAreThoseOfTheLibraryInEachCommand) {
+TEST(CommandLine, EachCommandOffersTheModesAndCriteriaOfTheLibrary) {
   for (const std::string command : {"diagnose", "batch"}) {
     const std::string help = run_program({command, "--help"}).out;
     EXPECT_NE(help.find("--classify TEXT:{evidence,samples}"), std::string::npos) << help;

@@ -55,7 +55,7 @@ std::vector<std::string> subcommands_in(const std::string& help) {
   return names;
 }
 
-TEST(DocumentationCommands, EachPageSaysWhatHelpSays) {
+TEST(DocumentationCommands, EachPageShowsTheOutputOfHelp) {
   const bool approve = std::getenv("FAULTLINE_APPROVE") != nullptr;
   std::vector<fs::path> pages = {kPages / "commands.md"};
   for (const auto& entry : fs::directory_iterator(kPages / "commands")) pages.push_back(entry.path());
@@ -69,7 +69,7 @@ TEST(DocumentationCommands, EachPageSaysWhatHelpSays) {
   }
 }
 
-TEST(DocumentationCommands, EachCommandHasAPageAndEachOfItsOwnCommandsABlock) {
+TEST(DocumentationCommands, EachCommandHasAPageAndEachSubcommandABlock) {
   const auto names = subcommands_in(run_program({"--help"}).out);
   EXPECT_GE(names.size(), 11u);
   const std::string overview = read_file((kPages / "commands.md").string());
@@ -93,7 +93,7 @@ std::string code_in(const std::string& page, const std::string& language) {
   return page.substr(code, page.find("\n" + kFence, code) + 1 - code);
 }
 
-TEST(DocumentationCpp, TheProgramOutsideTheTreeCompilesAndTellsItsUsage) {
+TEST(DocumentationCpp, TheExampleProgramCompilesAndPrintsItsUsage) {
   const TemporaryFolder folder;
   const std::string code = code_in(read_file((kPages / "cpp.md").string()), "cpp"),
                     log = folder.file("log.txt"), built = folder.file("night_check");
@@ -119,7 +119,7 @@ std::string sources() {
   return text;
 }
 
-TEST(DocumentationTroubleshooting, IssueCodesAreThoseOfTheProgram) {
+TEST(DocumentationTroubleshooting, EveryIssueCodeOfThePageOccursInTheSources) {
   static const std::regex code("`([a-z]+(_[a-z]+)+)`");
   const std::string program = sources();
   std::istringstream page(read_file(std::string(FAULTLINE_SOURCE_DIR) + "/docs/how-to/troubleshooting.md"));

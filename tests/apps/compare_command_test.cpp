@@ -24,7 +24,7 @@ std::string write_run(const TemporaryFolder& folder, const std::string& name, st
   return path;
 }
 
-TEST(CompareCommand, TellsTheSameFromTheOtherByItsStatus) {
+TEST(CompareCommand, ExitStatusDistinguishesEqualFromDifferentRuns) {
   const TemporaryFolder folder;
   const std::string a = write_run(folder, "a.csv", 1, false), b = write_run(folder, "b.csv", 2, false),
                     bad = write_run(folder, "bad.csv", 3, true);
@@ -43,7 +43,7 @@ TEST(CompareCommand, TellsTheSameFromTheOtherByItsStatus) {
   EXPECT_EQ(again.out, read_file(page));
 }
 
-TEST(CompareCommand, ShowsResidualsOfBothWithAModel) {
+TEST(CompareCommand, ShowsTheResidualsOfBothRunsWithAModel) {
   const BatchWorld world;
   const TemporaryFolder folder;
   const std::string a = write_run(folder, "a.csv", 1, false), bad = write_run(folder, "bad.csv", 3, true);
@@ -73,7 +73,7 @@ TEST(CompareCommand, ResidualsOfHealthyRunsOfDifferentMotionsAreTheSame) {
       << verdict("bad.csv");
 }
 
-TEST(CompareCommand, WhatCannotBeComparedIsSaid) {
+TEST(CompareCommand, RunsThatCannotBeComparedAndWrongOptionsAreRefused) {
   const TemporaryFolder folder;
   const std::string a = write_run(folder, "a.csv", 1, false);
   EXPECT_EQ(run_program({"compare", a, folder.file("none.csv")}).status, 3);

@@ -69,7 +69,7 @@ TEST_F(DiagnoseRecording, HoldsTheLogWithResidualsThatGrowAtTheOnset) {
   EXPECT_GT(after, 1.5 * before);
 }
 
-TEST_F(DiagnoseRecording, APredictionIsTheMeasuredLessItsResidual) {
+TEST_F(DiagnoseRecording, APredictionEqualsTheMeasurementMinusItsResidual) {
   ASSERT_EQ(diagnose(log_, {"--mcap", out_}).status, 1);
   const RecordedFile file = read_mcap(out_);
   const double scale = json::parse(read_file(model_)).at("residual").at("healthy").at("velocity_rms").at(0);
@@ -103,7 +103,7 @@ TEST_F(DiagnoseRecording, HoldsEvidenceEventsAndTheWholeDiagnosis) {
   EXPECT_NEAR(static_cast<double>(events.front().time_ns) / kNsPerSecond, onset, 1e-9);
 }
 
-TEST_F(DiagnoseRecording, TheLogIsReadBackWithoutWhatWasComputed) {
+TEST_F(DiagnoseRecording, ConvertReadsTheLogBackWithoutComputedSignals) {
   ASSERT_EQ(diagnose(log_, {"--mcap", out_}).status, 1);
   const std::string back = folder_.file("back.csv"), plain = folder_.file("plain.csv");
   ASSERT_EQ(run_program({"convert", out_, back}).status, 0);
@@ -111,7 +111,7 @@ TEST_F(DiagnoseRecording, TheLogIsReadBackWithoutWhatWasComputed) {
   EXPECT_EQ(read_file(back), read_file(plain));
 }
 
-TEST_F(DiagnoseRecording, TheSameRunGivesTheSameBytesAndOfAHealthyOneTheVerdict) {
+TEST_F(DiagnoseRecording, TheSameRunGivesTheSameBytesAndAHealthyRunGivesItsVerdict) {
   const std::string again = folder_.file("again.mcap");
   diagnose(log_, {"--mcap", out_});
   diagnose(log_, {"--mcap", again});
@@ -126,7 +126,7 @@ TEST_F(DiagnoseRecording, TheSameRunGivesTheSameBytesAndOfAHealthyOneTheVerdict)
   EXPECT_EQ(healthy.messages.count("/faultline/residuals"), 1u);
 }
 
-TEST_F(DiagnoseRecording, ALogThatCannotBeJudgedSaysSo) {
+TEST_F(DiagnoseRecording, ALogThatCannotBeJudgedHasAnEventWithoutVerdict) {
   const std::string log = read_file(kSamples + "bench/healthy_2.csv");
   std::size_t end = 0;
   for (int rows = 0; rows < 4; ++rows) end = log.find('\n', end) + 1;
@@ -137,7 +137,7 @@ TEST_F(DiagnoseRecording, ALogThatCannotBeJudgedSaysSo) {
   EXPECT_NE(events[0].bytes.find("\"message\":\"no verdict: "), std::string::npos) << events[0].bytes;
 }
 
-TEST_F(DiagnoseRecording, WhatWasFoundIsToldWhenTheRecordingCannotBeWritten) {
+TEST_F(DiagnoseRecording, FindingsArePrintedAlsoIfTheRecordingCannotBeWritten) {
   const std::string early = folder_.write(
       "early.csv",
       std::regex_replace(read_file(kSamples + "bench/healthy_2.csv"), std::regex("\n0,"), "\n-0.001,"));
@@ -148,7 +148,7 @@ TEST_F(DiagnoseRecording, WhatWasFoundIsToldWhenTheRecordingCannotBeWritten) {
   EXPECT_FALSE(fs::exists(out_));
 }
 
-TEST_F(DiagnoseRecording, ItGoesToAFileThatIsNoInput) {
+TEST_F(DiagnoseRecording, TheRecordingNeedsAFileThatIsNotAnInput) {
   const ProgramRun standard = diagnose(log_, {"--mcap", "-"});
   EXPECT_EQ(standard.status, 2);
   EXPECT_NE(standard.err.find("give the name of a file"), std::string::npos) << standard.err;

@@ -121,7 +121,7 @@ TEST_F(FileUseOfCommands, LearnKeepsItsInputs) {
   expect_refused(with({"-o", "@new", "--json", "@new.cases.db-journal"}), {"--json", "--cases"});
 }
 
-TEST_F(FileUseOfCommands, CasesKeepTheBaseTheModelAndWhatTheyRead) {
+TEST_F(FileUseOfCommands, CasesKeepTheCaseBaseTheModelAndTheirInputs) {
   expect_refused({"cases", "export", "--cases", "@c.db", "-o", "@c.db"}, {"-o", "the case base"});
   expect_refused({"cases", "export", "--cases", "@c.db", "-o", "@c.db-wal"}, {"the case base's journal"});
   expect_refused({"cases", "export", "--model", "@m", "-o", "@m"}, {"-o", "the model"});
@@ -174,7 +174,7 @@ const std::vector<std::vector<std::string>> kWritingCommands = {
 const std::vector<std::string> kKeptFiles = {"m.cases.db", "other.cases.db-wal", "out/.batch/journal",
                                              "made/logs/a.csv"};
 
-TEST_F(FileUseOfCommands, NoCommandOverwritesWhatAModelABatchOrGoldenLogsKeep) {
+TEST_F(FileUseOfCommands, NoCommandOverwritesFilesOfAModelABatchOrGoldenLogs) {
   fs::copy(FAULTLINE_SOURCE_DIR "/sample_logs/golden", folder_.path() / "golden",
            fs::copy_options::recursive);
   fs::create_directories(folder_.path() / "made/logs");
@@ -206,7 +206,7 @@ TEST_F(FileUseOfCommands, SimulateKeepsItsSpecAndItsRobot) {
   expect_refused({"simulate", "@specs/spec.toml", "-o", "@specs"}, {"the run arm", "the robot file"});
 }
 
-TEST_F(FileUseOfCommands, GoldenKeepsTheFolderAndWhatItReads) {
+TEST_F(FileUseOfCommands, GoldenKeepsItsFolderAndItsInputs) {
   expect_refused({"golden", "record", "@a.csv", "--model", "@made/golden.toml", "-o", "@made"},
                  {"the model"});
   const GoldenCopy golden;
@@ -233,7 +233,7 @@ TEST_F(FileUseOfCommands, StandardOutputDirectedIntoAFileOfTheCommandIsRefused) 
   EXPECT_NE(result.err.find("standard output"), std::string::npos) << result.err;
 }
 
-TEST_F(FileUseOfCommands, DevicesMayBeSharedAndOutputsMayBeOld) {
+TEST_F(FileUseOfCommands, DevicesAndExistingOutputFilesAreAccepted) {
   folder_.write("log.csv", kLog);
   folder_.write("old.csv", "old");
   EXPECT_EQ(run({"inspect", "@log.csv", "--json", "/dev/null"}).status, 0);

@@ -33,7 +33,7 @@ class GoldenAccept : public testing::Test {
   GoldenCopy golden_;
 };
 
-TEST_F(GoldenAccept, WithoutNamesItShowsAndChangesNothing) {
+TEST_F(GoldenAccept, WithoutNamesAcceptShowsTheDifferencesAndChangesNothing) {
   const auto before = golden_.snapshot();
   const ProgramRun run = golden_.run("accept");
   EXPECT_EQ(run.status, 1) << run.err;
@@ -43,7 +43,7 @@ TEST_F(GoldenAccept, WithoutNamesItShowsAndChangesNothing) {
 }
 
 /// As an accept leaves them that was killed before its last step.
-TEST_F(GoldenAccept, RemovesWhatAnInterruptedOneLeftAndNothingElse) {
+TEST_F(GoldenAccept, RemovesOnlyTheFilesThatAnInterruptedAcceptLeft) {
   const std::string trace = "time_s,q1\n0,1\n", traces = golden_.path() + "/traces/";
   const std::string left = traces + "locked_1-" + sha256_hex(trace).substr(0, 8) + ".csv";
   write_file(left, trace);
@@ -57,7 +57,7 @@ TEST_F(GoldenAccept, RemovesWhatAnInterruptedOneLeftAndNothingElse) {
   EXPECT_EQ(golden_.run("check").status, 0);
 }
 
-TEST_F(GoldenAccept, UpdatesOnlyWhatWasNamed) {
+TEST_F(GoldenAccept, UpdatesOnlyTheNamedItems) {
   const ProgramRun run = golden_.run("accept", {"locked_1"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(has(run.out, "+ event locked joint 1")) << run.out;
@@ -70,20 +70,20 @@ TEST_F(GoldenAccept, UpdatesOnlyWhatWasNamed) {
   EXPECT_EQ(golden_.run("check").status, 0);
 }
 
-TEST_F(GoldenAccept, AllTakesEverythingAndComesBackToTheCommittedFile) {
+TEST_F(GoldenAccept, AllAcceptsEveryDifference) {
   EXPECT_EQ(golden_.run("accept", {"--all"}).status, 0);
   const ProgramRun check = golden_.run("check");
   EXPECT_EQ(check.status, 0) << check.out;
   EXPECT_TRUE(has(golden_.run("accept", {"--all"}).out, "There is nothing to accept."));
 }
 
-TEST_F(GoldenAccept, KeepsTolerancesThatAPersonSet) {
+TEST_F(GoldenAccept, KeepsEditedTolerances) {
   golden_.edit("onset_s = {absolute = 0.15", "onset_s = {absolute = 0.25");
   EXPECT_EQ(golden_.run("accept", {"--all"}).status, 0);
   EXPECT_TRUE(has(read_file(golden_.toml()), "onset_s = {absolute = 0.25, relative = 0}"));
 }
 
-TEST_F(GoldenAccept, AnInterruptedOneLeavesWhatWasThere) {
+TEST_F(GoldenAccept, AnInterruptedAcceptLeavesGoldenTomlUnchanged) {
   const std::string before = read_file(golden_.toml());
   RunOptions options;
   options.file_size_limit = 4096;  // less than golden.toml: writing fails halfway
@@ -102,13 +102,13 @@ TEST_F(GoldenAccept, ReplacesALogThatWasChangedOnPurpose) {
   EXPECT_EQ(golden_.run("check").status, 0);
 }
 
-TEST_F(GoldenAccept, RefusesNamesThatAreNotThere) {
+TEST_F(GoldenAccept, RefusesAnUnknownNameAndListsTheKnownOnes) {
   const ProgramRun run = golden_.run("accept", {"locked_7"});
   EXPECT_EQ(run.status, 2);
   EXPECT_TRUE(has(run.err, "collision_1.csv")) << run.err;
 }
 
-TEST_F(GoldenAccept, ANewModelComesWithAllThatItSays) {
+TEST_F(GoldenAccept, AllWithANewModelReplacesTheOldModel) {
   const std::string model = golden_.outside("new.model");
   std::string text = read_file(golden_.file("", "model-"));
   const std::string old_name = std::filesystem::path(golden_.file("", "model-")).filename();
@@ -121,7 +121,7 @@ TEST_F(GoldenAccept, ANewModelComesWithAllThatItSays) {
   EXPECT_FALSE(std::filesystem::exists(golden_.path() + "/" + old_name)) << "the old model is not needed";
 }
 
-TEST_F(GoldenAccept, OneLogIsTakenWithANewModelAndWhatIsExpectedOfOthersStays) {
+TEST_F(GoldenAccept, OneLogIsAcceptedWithANewModelAndOthersKeepTheirExpectations) {
   const std::string model = golden_.outside("new.model");
   write_file(model, with_higher_threshold(read_file(golden_.file("", "model-"))));
   std::filesystem::copy_file(golden_.file("", "cases-"), case_base_path(model));
@@ -133,7 +133,7 @@ TEST_F(GoldenAccept, OneLogIsTakenWithANewModelAndWhatIsExpectedOfOthersStays) {
   EXPECT_FALSE(has(golden_.run("check").out, "threshold is"));
 }
 
-TEST_F(GoldenAccept, WhatDiffersOnlyInNumbersCanBeTakenAlone) {
+TEST_F(GoldenAccept, SameVerdictAcceptsOnlyLogsThatDifferInNumbersAlone) {
   golden_.edit("confidence = 0.", "confidence = 0.0");  // of the first event
   const ProgramRun check = golden_.run("check");
   EXPECT_EQ(check.status, 1);
@@ -151,7 +151,7 @@ TEST_F(GoldenAccept, WhatDiffersOnlyInNumbersCanBeTakenAlone) {
   EXPECT_EQ(read_file(golden_.toml()), before) << "a model that finds something else is not taken";
 }
 
-TEST(GoldenOfAnEarlierSchema, IsRefusedWithACure) {
+TEST(GoldenOfAnEarlierSchema, IsRefusedWithTheAdviceToRecordItAgain) {
   const GoldenCopy golden;
   write_file(golden.toml(), std::regex_replace(read_file(golden.toml()), std::regex("golden/2"), "golden/1"));
   const ProgramRun check = golden.run("check");

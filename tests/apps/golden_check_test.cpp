@@ -29,7 +29,7 @@ TEST(GoldenCheck, WritesNothingIntoTheFolder) {
   EXPECT_EQ(golden.snapshot(), before);
 }
 
-TEST(GoldenCheck, WorksOnAFolderThatCannotBeWritten) {
+TEST(GoldenCheck, WorksOnAReadOnlyFolder) {
   const GoldenCopy golden;
   namespace fs = std::filesystem;
   fs::permissions(golden.path(), fs::perms::owner_read | fs::perms::owner_exec);
@@ -60,7 +60,7 @@ void expect_another_dq2(const GoldenCopy& golden, const std::string& value) {
   golden.edit(before, sha256_hex(rows));
 }
 
-TEST(GoldenCheck, NamesChannelTimeValueAndExpectedOfTheFirstDivergence) {
+TEST(GoldenCheck, NamesChannelTimeValueAndExpectationOfTheFirstDivergence) {
   const GoldenCopy golden;
   expect_another_dq2(golden, "0.25");
   const ProgramRun run = golden.run("check", {"--json", golden.outside("check.json")});
@@ -85,7 +85,7 @@ TEST(GoldenCheck, ATolerancePerLogAndChannelAllowsADeviation) {
   EXPECT_EQ(run.status, 0) << run.out << run.err;
 }
 
-TEST(GoldenCheck, ACaughtChangeOfAnIdentifiedParameter) {
+TEST(GoldenCheck, FindsAChangeOfAnIdentifiedParameter) {
   const GoldenCopy golden;
   golden.edit("{name = \"b\", value = 0.49", "{name = \"b\", value = 0.48");
   const ProgramRun run = golden.run("check");
@@ -107,7 +107,7 @@ TEST(GoldenCheck, JUnitHasACaseForEachLogAndTheDifferenceInItsFailure) {
   EXPECT_TRUE(has(run.out, "<error type=\"damaged\" message=\"logs/payload_change.csv is not the file"));
 }
 
-TEST(GoldenCheck, AnotherModelIsComparedWithWhatIsExpected) {
+TEST(GoldenCheck, AnotherModelIsComparedWithTheExpectations) {
   const GoldenCopy golden;
   std::string model = read_file(golden.file("", "model-"));
   const std::string rms = "\"velocity_rms\"";
@@ -127,7 +127,7 @@ TEST(GoldenCheck, AnotherModelIsComparedWithWhatIsExpected) {
   EXPECT_EQ(golden.run("compare", {golden.outside("other.model"), golden.outside("other.model")}).status, 0);
 }
 
-TEST(GoldenCheck, AModelWhoseInertiaIsHalfAPercentOffIsSeen) {
+TEST(GoldenCheck, FindsAnInertiaThatDiffersByHalfAPercent) {
   const GoldenCopy golden;
   const std::string other = golden.outside("other.model");
   auto model = nlohmann::ordered_json::parse(read_file(golden.file("", "model-")));

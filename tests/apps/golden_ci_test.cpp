@@ -67,7 +67,7 @@ struct Snippet {
 
 class GoldenCi : public testing::TestWithParam<Snippet> {};
 
-TEST_P(GoldenCi, TheCheckOfTheSnippetPassesAndFailsAsItShould) {
+TEST_P(GoldenCi, TheSnippetPassesOnGoldenLogsAndFailsOnADifference) {
   const std::string commands = check_commands(GetParam().file, GetParam().block, GetParam().lead);
   ASSERT_NE(commands.find("golden check"), std::string::npos) << commands;
   const GoldenCopy golden;
@@ -78,7 +78,7 @@ TEST_P(GoldenCi, TheCheckOfTheSnippetPassesAndFailsAsItShould) {
   EXPECT_NE(read_file(golden.outside("golden.xml")).find("failures=\"1\""), std::string::npos);
 }
 
-TEST_P(GoldenCi, ThePageShowsTheFileAsItIs) {
+TEST_P(GoldenCi, ThePageShowsTheSnippetUnchanged) {
   const std::string page = read_file(kRoot + "/docs/golden.md");
   std::string shown;
   std::vector<std::string> lines = lines_of(kRoot + "/apps/ci/" + GetParam().file);

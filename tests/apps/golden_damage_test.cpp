@@ -31,7 +31,7 @@ TEST(GoldenDamage, AChangedModelOrCaseBaseIsRefused) {
   }
 }
 
-TEST(GoldenDamage, AFolderWithoutGoldenTomlSaysHowToMakeOne) {
+TEST(GoldenDamage, AFolderWithoutGoldenTomlIsRefusedWithTheCommandThatMakesOne) {
   const TemporaryFolder folder;
   const ProgramRun run = run_program({"golden", "check", folder.path().string()});
   EXPECT_EQ(run.status, 3);

@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class ForeignGolden : public testing::Test {
+class ForeignGoldenFolder : public testing::Test {
  protected:
-  ForeignGolden() { write_file(secret(), "root:x:0:0:a secret line\n"); }
+  ForeignGoldenFolder() { write_file(secret(), "root:x:0:0:a secret line\n"); }
 
   std::string secret() const { return golden_.outside("secret"); }
 
@@ -61,20 +61,20 @@ class ForeignGolden : public testing::Test {
   GoldenCopy golden_;
 };
 
-TEST_F(ForeignGolden, LinksAndPipesInPlaceOfItsFilesAreNotOpened) {
+TEST_F(ForeignGoldenFolder, LinksAndPipesInPlaceOfItsFilesAreNotOpened) {
   for (const std::string& file : {std::string("golden.toml"), named("logs", "locked_1"),
                                   named("traces", "locked_1"), named("", "model-"), named("", "cases-")})
     expect_not_opened(file);
   EXPECT_EQ(golden_.run("check").status, 0) << "the folder is as it was";
 }
 
-TEST_F(ForeignGolden, JournalsBesideItsDatabasesAreNotOpenedEither) {
+TEST_F(ForeignGoldenFolder, ALinkInPlaceOfADatabaseJournalIsNotOpened) {
   const std::string journal = named("", "cases-") + "-journal";
   fs::create_symlink(secret(), fs::path(golden_.path()) / journal);
   expect_refused(journal, "symbolic link");
 }
 
-TEST_F(ForeignGolden, ALinkInPlaceOfAFolderIsNotFollowed) {
+TEST_F(ForeignGoldenFolder, ALinkInPlaceOfAFolderIsNotFollowed) {
   for (const char* folder : {"logs", "traces"}) {
     const fs::path path = fs::path(golden_.path()) / folder, kept = golden_.outside(folder);
     fs::rename(path, kept);
@@ -85,7 +85,7 @@ TEST_F(ForeignGolden, ALinkInPlaceOfAFolderIsNotFollowed) {
   }
 }
 
-TEST_F(ForeignGolden, NamesThatLeaveTheFolderAreRefused) {
+TEST_F(ForeignGoldenFolder, NamesThatLeaveTheFolderAreRefused) {
   for (const char* name : {"../secret", "/etc/passwd", "logs/../../secret", "logs/a\\tb.csv"}) {
     const GoldenCopy golden;
     golden.edit("\"logs/locked_1.csv\"", std::string("\"") + name + "\"");
@@ -97,7 +97,7 @@ TEST_F(ForeignGolden, NamesThatLeaveTheFolderAreRefused) {
 
 /// The names of a new model follow from its content, so that somebody who knows it can put a link there
 /// before.
-TEST_F(ForeignGolden, AcceptingAModelWritesThroughNoLink) {
+TEST_F(ForeignGoldenFolder, AcceptingAModelWritesThroughNoLink) {
   const std::string model = golden_.outside("new.json");
   write_file(model, read_file(golden_.file("", "model-")) + " ");
   fs::copy_file(golden_.file("", "cases-"), case_base_path(model));
@@ -113,7 +113,7 @@ TEST_F(ForeignGolden, AcceptingAModelWritesThroughNoLink) {
   EXPECT_EQ(read_file(golden_.toml()), before);
 }
 
-TEST_F(ForeignGolden, RecordingWritesThroughNoLink) {
+TEST_F(ForeignGoldenFolder, RecordingWritesThroughNoLink) {
   const std::string model = golden_.file("", "model-"), made = golden_.outside("made");
   fs::create_directories(made + "/logs");
   fs::create_symlink(secret(), made + "/logs/locked_1.csv");

@@ -33,7 +33,7 @@ class GoldenRecord : public testing::Test {
   std::string made_ = golden_.outside("made");
 };
 
-TEST_F(GoldenRecord, TheSameLogsGiveTheCommittedFolderAgain) {
+TEST_F(GoldenRecord, RecordedLogsPassTheCheckAlsoAfterTheFolderMoved) {
   std::vector<std::string> logs;
   for (const auto& entry : fs::directory_iterator(golden_.path() + "/logs")) logs.push_back(entry.path());
   std::sort(logs.begin(), logs.end());
@@ -49,7 +49,7 @@ TEST_F(GoldenRecord, TheSameLogsGiveTheCommittedFolderAgain) {
   EXPECT_EQ(run_program({"golden", "check", golden_.outside("moved")}).status, 0);
 }
 
-TEST_F(GoldenRecord, UsesALogThatIsInTheFolderWhereItIs) {
+TEST_F(GoldenRecord, KeepsALogOfTheFolderInItsPlace) {
   fs::create_directories(made_ + "/runs");
   fs::copy_file(log("locked_1.csv"), made_ + "/runs/locked_1.csv");
   ASSERT_EQ(record(made_, {made_ + "/runs/locked_1.csv"}).status, 0);
@@ -58,7 +58,7 @@ TEST_F(GoldenRecord, UsesALogThatIsInTheFolderWhereItIs) {
   EXPECT_EQ(run_program({"golden", "check", made_}).status, 0);
 }
 
-TEST_F(GoldenRecord, SaysWhyNothingIsIdentified) {
+TEST_F(GoldenRecord, ReportsWhyNoRobotIsIdentified) {
   EXPECT_TRUE(
       has(record(made_, {log("locked_1.csv")}).out, "identification: none, no log was found healthy"));
   const ProgramRun run =
@@ -85,7 +85,7 @@ TEST_F(GoldenRecord, ALogThatCannotBeProcessedLeavesNoGoldenFolder) {
   EXPECT_FALSE(fs::exists(made_ + "/golden.toml"));
 }
 
-TEST_F(GoldenRecord, HostileNamesSurvive) {
+TEST_F(GoldenRecord, MarkupInNamesIsEscapedAndUnprintableNamesAreRefused) {
   const std::string name = "a \"b\" <x> \xE2\x80\xAE & 'c'.csv";
   fs::copy_file(log("locked_1.csv"), golden_.outside(name));
   ASSERT_EQ(record(made_, {golden_.outside(name)}).status, 0);

@@ -25,7 +25,7 @@ void expect_harmless(const ProgramRun& run) {
   }
 }
 
-TEST(HostileText, ColumnNamesAndCells) {
+TEST(HostileText, ColumnNamesAndCellsCannotControlATerminal) {
   const TemporaryFolder folder;
   const std::string log =
       folder.write("run.csv", "t,q1,tau1 [" + kCommand + "],x" + kCommand + ",s\n0,1," + kCommand +
@@ -39,7 +39,7 @@ TEST(HostileText, ColumnNamesAndCells) {
   expect_harmless(run_program({"inspect", folder.file("a.flog")}));
 }
 
-TEST(HostileText, PathsAndOptions) {
+TEST(HostileText, PathsAndOptionsCannotControlATerminal) {
   const TemporaryFolder folder;
   const std::string log = folder.write("run" + kCommand + "\n.csv", "t,q1\n0,1\n1,2\n");
   expect_harmless(run_program({"inspect", log}));
@@ -49,7 +49,7 @@ TEST(HostileText, PathsAndOptions) {
   expect_harmless(run_program({kCommand}));
 }
 
-TEST(HostileText, KeysOfARobotFile) {
+TEST(HostileText, KeysOfARobotFileCannotControlATerminal) {
   const TemporaryFolder folder;
   const std::string log = folder.write("run.csv", "t,q1\n0,1\n1,2\n");
   const std::string escaped = "\\u001b]0;owned\\u0007\\u009b";
@@ -70,7 +70,7 @@ TEST(HostileText, LongNamesAreShortened) {
   }
 }
 
-TEST(HostileText, NamesOfAConvertedTableAreNoFormulas) {
+TEST(HostileText, NamesOfAConvertedTableAreNotFormulas) {
   const TemporaryFolder folder;
   const std::string log = folder.write("run.csv", "t,q1,=cmd|' /C calc'!A0,-x\n0,1,2,3\n1,2,3,4\n");
   const ProgramRun run = run_program({"convert", log, folder.file("a.csv")});

@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 
 const std::string kLog = "t,q1,dq1,tau1\n0,0.1,0.25,-3e-300\n0.1,0.125,0.25,2\n0.2,0.15,0.25,0.1\n";
 
-TEST(Inspect, JsonTellsWhatTheTextTells) {
+TEST(Inspect, JsonHoldsTheFactsOfTheLog) {
   const TemporaryFolder folder;
   const std::string log = folder.write("run.csv", kLog);
   const ProgramRun run = run_program({"inspect", log, "--json", "-"});
@@ -44,7 +44,7 @@ TEST(Inspect, TheSameLogGivesTheSameBytes) {
             run_program({"inspect", log, "--json", "-"}).out);
 }
 
-TEST(Inspect, ColorsOnlyWhenAsked) {
+TEST(Inspect, OutputHasColorsOnlyOnRequest) {
   const TemporaryFolder folder;
   const std::string log = folder.write("run.csv", kLog);
   EXPECT_EQ(run_program({"inspect", log}).out.find('\x1b'), std::string::npos);
@@ -72,7 +72,7 @@ TEST(Inspect, RobotFileGivesUnitsAndColumns) {
   EXPECT_EQ(found.at("channels").at(1).at("max"), 70.0);
 }
 
-TEST(Inspect, VelocitiesItSaysWillBeDerivedAreDerived) {
+TEST(Inspect, DiagnoseDerivesTheVelocitiesThatInspectAnnounces) {
   const TemporaryFolder folder;
   const std::string golden = std::string(FAULTLINE_SOURCE_DIR) + "/sample_logs/golden/";
   const std::string log = read_file(golden + "logs/locked_1.csv");
@@ -99,7 +99,7 @@ TEST(Inspect, VelocitiesItSaysWillBeDerivedAreDerived) {
   EXPECT_EQ(run.status, 1) << run.err;
 }
 
-TEST(Inspect, TheRobotSaysWhichAxisSlides) {
+TEST(Inspect, ASlidingAxisOfTheRobotFileGetsMillimetresAsSuggestedUnit) {
   const TemporaryFolder folder;
   std::string text = "t,q1,q2\n";
   for (int i = 0; i < 50; ++i) text += std::to_string(0.01 * i) + ",0.5," + std::to_string(4.0 * i) + "\n";
@@ -119,7 +119,7 @@ TEST(Convert, CsvToNativeAndBackIsExact) {
   EXPECT_EQ(run_program({"convert", log, "-"}).out, kLog);
 }
 
-TEST(Convert, TellsWhatWasLeftOut) {
+TEST(Convert, ReportsTheRowsThatItLeavesOut) {
   const TemporaryFolder folder;
   const ProgramRun run =
       run_program({"convert", folder.write("run.csv", kLog + "0.2,1,1,1\n"), folder.file("out.csv")});

@@ -70,7 +70,7 @@ class JsonSchemas : public testing::Test {
   const std::string model_ = folder_.file("bench.model");
 };
 
-TEST_F(JsonSchemas, DiagnosesOfFaultyHealthyAndInconclusiveLogs) {
+TEST_F(JsonSchemas, DiagnosesOfFaultyHealthyAndInconclusiveLogsFollowTheSchema) {
   diagnose("locked_1.csv", file("faulty.json"));
   diagnose("healthy_quintic.csv", file("healthy.json"));
   diagnose("locked_1.csv", file("samples.json"), {"--classify", "samples"});
@@ -81,14 +81,14 @@ TEST_F(JsonSchemas, DiagnosesOfFaultyHealthyAndInconclusiveLogs) {
                         {"diagnosis-1", file("samples.json")}, {"diagnosis-1", file("sparse.json")});
 }
 
-TEST_F(JsonSchemas, InspectionsOfGoodAndDamagedLogs) {
+TEST_F(JsonSchemas, InspectionsOfGoodAndDamagedLogsFollowTheSchema) {
   const std::string odd = folder_.write("odd.csv", "a,b\n1,x\n2,3\n3,4\n"), json = file("inspection.json");
   const std::string gap = folder_.write("gap.csv", "t,q1,dq1\n0,0,0\n1,1,1\n2,2,x\n9,2,1\n8,1,1\n10,nan,1\n");
   run_program({"inspect", kLogs + "locked_1.csv", odd, gap, "--json", json});
   EXPECT_FOLLOWS_SCHEMA({"inspection-1", json});
 }
 
-TEST_F(JsonSchemas, IdentificationsWellAndPoorlyExcited) {
+TEST_F(JsonSchemas, IdentificationsWithMuchAndLittleExcitationFollowTheSchema) {
   const std::string robot = kSamples + "bench/robot.toml";
   EXPECT_EQ(run_program({"identify", kSamples + "bench/healthy_2.csv", kSamples + "bench/healthy_3.csv",
                          "--robot", robot, "-o", file("a.toml"), "--json", file("two.json")})
@@ -99,7 +99,7 @@ TEST_F(JsonSchemas, IdentificationsWellAndPoorlyExcited) {
   EXPECT_FOLLOWS_SCHEMA({"identification-1", file("two.json")}, {"identification-1", file("one.json")});
 }
 
-TEST_F(JsonSchemas, WhatLearnLeavesAndWhereACaseBaseWasThere) {
+TEST_F(JsonSchemas, ModelsAndReportsOfLearnFollowTheirSchemas) {
   const std::string bench = kSamples + "bench/", model = file("learned.model");
   fs::copy_file(model_ + ".cases.db", model + ".cases.db");
   const ProgramRun run =
@@ -116,7 +116,7 @@ TEST_F(JsonSchemas, WhatLearnLeavesAndWhereACaseBaseWasThere) {
                         {"twin-1", twin});
 }
 
-TEST_F(JsonSchemas, AModelOfLogsWithoutTorque) {
+TEST_F(JsonSchemas, AModelOfLogsWithoutTorqueFollowsTheSchema) {
   std::string log = "t,q1,q_ref1\n";
   for (int k = 0; k < 3000; ++k) {
     const int phase = k % 200, at = phase < 100 ? phase : 200 - phase;
@@ -130,7 +130,7 @@ TEST_F(JsonSchemas, AModelOfLogsWithoutTorque) {
   EXPECT_FOLLOWS_SCHEMA({"learning-1", file("tracking.json")}, {"model-4", model});
 }
 
-TEST_F(JsonSchemas, ABatchAndItsMergedShards) {
+TEST_F(JsonSchemas, ABatchAndItsMergedShardsFollowTheirSchemas) {
   fs::create_directory(file("runs"));
   folder_.write("runs/broken.csv", "");
   fs::copy_file(kLogs + "locked_1.csv", file("runs/locked.csv"));
@@ -153,7 +153,7 @@ TEST_F(JsonSchemas, ABatchAndItsMergedShards) {
   EXPECT_TRUE(verdict.valid) << verdict.text;
 }
 
-TEST_F(JsonSchemas, ComparisonsByTimeByMotionAndOfOneRunWithItself) {
+TEST_F(JsonSchemas, ComparisonsByTimeByMotionAndOfOneRunWithItselfFollowTheSchema) {
   const std::string bench = kSamples + "bench/", robot = bench + "robot.toml";
   const auto compare = [&](const std::string& first, const std::string& second, const std::string& json,
                            std::vector<std::string> more) {
@@ -167,7 +167,7 @@ TEST_F(JsonSchemas, ComparisonsByTimeByMotionAndOfOneRunWithItself) {
                         {"comparison-1", file("same.json")});
 }
 
-TEST_F(JsonSchemas, GoldenLogsThatAreAsExpectedAndThatDiffer) {
+TEST_F(JsonSchemas, GoldenChecksWithAndWithoutDifferencesFollowTheSchema) {
   const std::string golden = kSamples + "golden";
   EXPECT_EQ(run_program({"golden", "check", golden, "--json", file("same.json")}).status, 0);
   const std::string spec = read_file(golden + "/golden.toml");
@@ -182,7 +182,7 @@ TEST_F(JsonSchemas, GoldenLogsThatAreAsExpectedAndThatDiffer) {
                         {"golden-check-1", file("compared.json")});
 }
 
-TEST_F(JsonSchemas, Cases) {
+TEST_F(JsonSchemas, CasesAndTheirListsFollowTheirSchemas) {
   diagnose("locked_1.csv", file("faulty.json"));
   const std::string added =
       cases("added.json", {"add", file("faulty.json"), "--fault", "locked", "--joint", "1", "--by", "Weber",
@@ -196,7 +196,7 @@ TEST_F(JsonSchemas, Cases) {
                         {"cases-1", file("cases.json")}, {"case-import-1", imported});
 }
 
-TEST_F(JsonSchemas, Simulations) {
+TEST_F(JsonSchemas, SimulationsFollowTheSchema) {
   const std::string spec =
       folder_.write("spec.toml",
                     "format = \"csv\"\nduration_s = 4.0\nsample_period_s = 0.01\n"
@@ -208,7 +208,7 @@ TEST_F(JsonSchemas, Simulations) {
   EXPECT_FOLLOWS_SCHEMA({"simulation-1", json});
 }
 
-TEST_F(JsonSchemas, WhatAConvertedLogTellsOfItsLosses) {
+TEST_F(JsonSchemas, ProvenanceOfAConvertedLogFollowsItsSchema) {
   const std::string log = folder_.write("lossy.csv", "t,q1,spare\n0,0,1\n1,x,2\n2,1,3\n1,1,3\n3,1,5\n");
   EXPECT_EQ(run_program({"convert", log, file("copy.csv")}).status, 1);
   EXPECT_EQ(run_program({"convert", log, file("copy.h5")}).status, 1);
@@ -242,7 +242,7 @@ TEST_F(JsonSchemas, ADocumentThatIsBrokenIsRefused) {
 }
 
 /// The check itself tries a member too many in every object.
-TEST_F(JsonSchemas, OnlyWhatHasNamesOfTheRobotTakesAnyMember) {
+TEST_F(JsonSchemas, OnlyObjectsOfFeaturesTakeAdditionalMembers) {
   diagnose("locked_1.csv", file("faulty.json"));
   EXPECT_EQ(run_program({"cases", "export", "--model", model_, "-o", file("cases.json")}).status, 0);
   const SchemaVerdict verdict =
@@ -272,7 +272,7 @@ TEST(SchemaFiles, EachSchemaOfTheSourcesHasAFile) {
     EXPECT_TRUE(fs::exists(kRoot + "/docs/schemas/" + name + ".json")) << "docs/schemas/" << name << ".json";
 }
 
-TEST(SchemaFiles, EachIsNamedOnThePageAboutThem) {
+TEST(SchemaFiles, ThePageOnSchemasNamesEachSchemaFile) {
   const std::string page = read_file(kRoot + "/docs/reference/json-schemas.md");
   int checked = 0;
   for (const auto& entry : fs::directory_iterator(kRoot + "/docs/schemas")) {

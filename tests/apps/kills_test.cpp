@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 constexpr int kKills = 8;
 
 /// A command that writes into the folder of its results only.
-class Kills : public testing::Test {
+class KilledCommands : public testing::Test {
  protected:
-  Kills() {
+  KilledCommands() {
     world_.add_log("log.csv", 30.0, true, 5);
     world_.add_log("healthy.csv", 30.0, false, 6);
     for (const char* folder : {"whole", "out"}) fs::create_directories(world_.file(folder));
@@ -69,14 +69,14 @@ class Kills : public testing::Test {
   Random random_{11};
 };
 
-TEST_F(Kills, Convert) {
+TEST_F(KilledCommands, AKilledConvertLeavesNoPartialFile) {
   world_.add_log("long.csv", 600.0, false, 7);
   expect_nothing_lost([&](const std::string& out) {
     return std::vector<std::string>{"convert", log("long.csv"), out + "/log.csv"};
   });
 }
 
-TEST_F(Kills, DiagnoseWithAllReports) {
+TEST_F(KilledCommands, AKilledDiagnoseLeavesNoPartialReport) {
   expect_nothing_lost([&](const std::string& out) {
     return std::vector<std::string>{"diagnose", log("log.csv"),  "--model", world_.model(),
                                     "--json",   out + "/j",      "--csv",   out + "/c",
@@ -84,7 +84,7 @@ TEST_F(Kills, DiagnoseWithAllReports) {
   });
 }
 
-TEST_F(Kills, Identify) {
+TEST_F(KilledCommands, AKilledIdentifyLeavesNoPartialFile) {
   const std::string robot = world_.file("robot.toml");
   write_file(robot, "axes = \"P\"\n");
   expect_nothing_lost([&](const std::string& out) {
@@ -94,7 +94,7 @@ TEST_F(Kills, Identify) {
   });
 }
 
-TEST_F(Kills, Simulate) {
+TEST_F(KilledCommands, AKilledSimulateLeavesNoPartialFile) {
   const std::string spec = world_.file("spec.toml");
   write_file(spec, "robot = \"RRP\"\nduration_s = 20.0\n[[run]]\nname = \"a\"\n[[run]]\nname = \"b\"\n");
   expect_nothing_lost([&](const std::string& out) {
@@ -102,13 +102,13 @@ TEST_F(Kills, Simulate) {
   });
 }
 
-TEST_F(Kills, CasesExport) {
+TEST_F(KilledCommands, AKilledCasesExportLeavesNoPartialFile) {
   expect_nothing_lost([&](const std::string& out) {
     return std::vector<std::string>{"cases", "export", "--model", world_.model(), "-o", out + "/cases.json"};
   });
 }
 
-TEST_F(Kills, LearnLeavesNothingHalfWritten) {
+TEST_F(KilledCommands, AKilledLearnLeavesNoPartialModel) {
   const std::string out = world_.file("out"), robot = world_.file("robot.toml");
   write_file(robot, "axes = \"P\"\n");
   const std::vector<std::string> learn = {"learn", log("healthy.csv"), "--robot",          robot,

@@ -18,7 +18,7 @@ std::vector<std::string> identify(const std::string& out, int logs) {
   return command;
 }
 
-TEST(Limits, WithoutThreadsTheSameIsIdentified) {
+TEST(ResourceLimits, IdentifyGivesTheSameRobotIfNoThreadCanStart) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program(identify(folder.file("usual.toml"), 1)).status, 0);
   const Limit limit(RLIMIT_STACK, kImpossibleStack);
@@ -27,7 +27,7 @@ TEST(Limits, WithoutThreadsTheSameIsIdentified) {
   EXPECT_EQ(read_file(folder.file("alone.toml")), read_file(folder.file("usual.toml")));
 }
 
-TEST(Limits, MoreLogsThanOpenFilesAreIdentifiedFrom) {
+TEST(ResourceLimits, IdentifyReadsMoreLogsThanTheProcessMayOpenAtOnce) {
   const TemporaryFolder folder;
   const Limit limit(RLIMIT_NOFILE, 20);
   const ProgramRun run = run_program(identify(folder.file("r.toml"), 40));

@@ -40,7 +40,7 @@ TEST(LogSelectionOptions, AnOutputThatIsAPartOfTheLogIsRefused) {
   EXPECT_EQ(read_file(tau), kTorque);
 }
 
-TEST(LogSelectionOptions, AWrongWordIsAUsageError) {
+TEST(LogSelectionOptions, AnInvalidOptionValueIsAUsageError) {
   const TemporaryFolder folder;
   const std::string q = folder.write("q.csv", kPosition);
   EXPECT_EQ(run_program({"convert", q, "-", "--join", q, "--join-by", "colour"}).status, 2);

@@ -70,7 +70,7 @@ class ModelCommand : public testing::Test {
   std::string model_ = folder_.file("stepper.model"), base_ = case_base_path(model_);
 };
 
-TEST_F(ModelCommand, AnEditedModelIsRefusedUntilItIsSignedAndThenEachReportSaysSo) {
+TEST_F(ModelCommand, AnEditedModelIsRefusedUntilItIsSignedAndThenMarkedInEachReport) {
   edit_model();
   const ProgramRun refused = diagnose();
   EXPECT_EQ(refused.status, 3);
@@ -119,7 +119,7 @@ TEST_F(ModelCommand, CasesOfARobotOfAnotherKindAreNotBoundToTheModel) {
   }
 }
 
-TEST_F(ModelCommand, LearningAgainKeepsWhatPeopleConfirmedAndSaysSo) {
+TEST_F(ModelCommand, LearningAgainKeepsAndReportsConfirmedCases) {
   ASSERT_EQ(cases({"add", "--fault", "locked", "--joint", "1", "--done", "new brake"}).status, 0);
   const std::string json = folder_.file("learned.json");
   const ProgramRun run = learn({logs_[0], logs_[2]}, {"--json", json});
@@ -133,7 +133,7 @@ TEST_F(ModelCommand, LearningAgainKeepsWhatPeopleConfirmedAndSaysSo) {
   EXPECT_EQ(base.model_identity(), load_model(model_).identity);
 }
 
-TEST_F(ModelCommand, LearningIsRefusedWhereItWouldLoseCases) {
+TEST_F(ModelCommand, LearningIsRefusedIfItWouldLoseCases) {
   EXPECT_EQ(cases({"add", "--fault", "locked", "--joint", "3"}).status, 2) << "the robot has one joint";
   change_case_base(base_, [](CaseBase& base) {
     base.describe_robot({"gantry", "PPR"});
@@ -154,7 +154,7 @@ TEST_F(ModelCommand, LearningIsRefusedWhereItWouldLoseCases) {
   EXPECT_EQ(read_file(model_), model);
 }
 
-TEST_F(ModelCommand, ADeviceWithoutEndIsRefusedWithLittleMemory) {
+TEST_F(ModelCommand, AnEndlessDeviceIsRefusedWithinLittleMemory) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the address sanitizer needs more address space than the limit leaves";
 #endif

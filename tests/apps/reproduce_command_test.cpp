@@ -54,7 +54,7 @@ void expect_figures_3_to_8(const fs::path& folder, const std::string& page) {
     EXPECT_TRUE(fs::exists(folder / (*i)[1].str())) << (*i)[1];
 }
 
-TEST(ReproduceCommand, quick_run_gives_tables_figures_and_the_orders_of_magnitude_to_be_reached) {
+TEST(ReproduceCommand, AQuickRunWritesTablesAndFiguresOfTheRightOrdersOfMagnitude) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "paper";
   const ProgramRun run = run_program({"reproduce", "--quick", "-o", out.string()});
@@ -69,7 +69,7 @@ TEST(ReproduceCommand, quick_run_gives_tables_figures_and_the_orders_of_magnitud
   EXPECT_FOLLOWS_SCHEMA({"reproduction-1", (out / "index.json").string()});
 }
 
-TEST(ReproduceCommand, bad_options_and_places_are_named) {
+TEST(ReproduceCommand, BadOptionsAndUnwritableFoldersAreRefused) {
   EXPECT_EQ(run_program({"reproduce", "--seeds", "0"}).status, 2);
   TemporaryFolder folder;
   write_file((folder.path() / "file").string(), "x");

@@ -32,14 +32,14 @@ class RobotArgument : public testing::Test {
   ProgramRun simulated_;
 };
 
-TEST_F(RobotArgument, AxesAloneAreARobotOfASpecAndOfIdentify) {
+TEST_F(RobotArgument, AxesAloneSpecifyARobotForSimulateAndIdentify) {
   ASSERT_EQ(simulated_.status, 0) << simulated_.err;
   const ProgramRun run = identify("P", folder_.file("identified.toml"));
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(load_robot_file(folder_.file("identified.toml")).identified);
 }
 
-TEST_F(RobotArgument, IdentifyWritesAndReadsUrdfByItsName) {
+TEST_F(RobotArgument, IdentifyWritesAndReadsUrdfByTheExtensionOfTheFile) {
   const std::string urdf = folder_.file("identified.urdf");
   ASSERT_EQ(identify("P", urdf).status, 0);
   EXPECT_NE(read_file(urdf).find("<robot name="), std::string::npos);
@@ -54,7 +54,7 @@ TEST_F(RobotArgument, ABrokenUrdfIsAnInputError) {
   EXPECT_NE(run.err.find("arm.urdf, line 1"), std::string::npos) << run.err;
 }
 
-TEST_F(RobotArgument, SimulatedLogsOfACoupledRobotAreThoseOfItsDrives) {
+TEST_F(RobotArgument, SimulatedLogsOfACoupledRobotHoldTheSignalsOfItsDrives) {
   const std::string plain = read_file(folder_.file("logs/healthy.csv"));
   std::string spec = kSpec;
   spec.replace(spec.find("robot = \"P\"\n"), 12, "robot = {axes = \"P\", log = {coupling = [[2]]}}\n");

@@ -56,7 +56,7 @@ std::string file_in(const std::string& folder, const std::string& beginning) {
   return "";
 }
 
-TEST(SameBytes, OfDiagnosesOnAnyProcessor) {
+TEST(SameBytes, DiagnosesHaveTheSameBytesOnAnyProcessor) {
   const std::string golden = kSamples + "golden", model = file_in(golden, "model-"),
                     cases = file_in(golden, "cases-");
   for (const char* log : {"healthy_2", "collision_1", "friction_increase_1", "payload_change",
@@ -66,12 +66,12 @@ TEST(SameBytes, OfDiagnosesOnAnyProcessor) {
                       4);
 }
 
-TEST(SameBytes, OfGoldenChecksOnAnyProcessor) {
+TEST(SameBytes, GoldenChecksHaveTheSameBytesOnAnyProcessor) {
   expect_same_bytes({"golden", "check", kSamples + "golden", "--json", "@check.json"}, 2);
 }
 
 /// The twin's motion, identification, residual network, both classifiers, criterion, calibration and cases.
-TEST(SameBytes, OfSimulatedLogsAndLearnedModelsOnAnyProcessor) {
+TEST(SameBytes, SimulatedLogsAndLearnedModelsHaveTheSameBytesOnAnyProcessor) {
   const TemporaryFolder folder;
   const std::string spec = folder.write(
       "spec.toml", "robot = \"R\"\nduration_s = 10.0\nsample_period_s = 0.01\n[[run]]\nname = \"healthy\"\n");

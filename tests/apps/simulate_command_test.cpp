@@ -50,13 +50,13 @@ TEST_F(SimulateCommand, WritesLogsAndLabels) {
   EXPECT_EQ(read_file(out_ + "/bad.csv").substr(0, 38), "t,q1,q2,q3,dq1,dq2,dq3,tau1,tau2,tau3\n");
 }
 
-TEST_F(SimulateCommand, JsonTellsWhatWasMade) {
+TEST_F(SimulateCommand, JsonListsRunsAndFaults) {
   const auto json = nlohmann::json::parse(simulate({"--json"}).out);
   EXPECT_EQ(json.at("runs").at(1).at("faults").at(0).at("kind"), "locked");
   EXPECT_EQ(json.at("runs").at(0).at("rows"), 101);
 }
 
-TEST_F(SimulateCommand, SeedChangesTheMotionAndNothingElse) {
+TEST_F(SimulateCommand, TheSeedDeterminesTheMotion) {
   simulate();
   const std::string first = read_file(out_ + "/healthy.csv");
   simulate({"--seed", "9"});
@@ -82,7 +82,7 @@ TEST_F(SimulateCommand, WrongSpecIsAUsageErrorThatNamesTheLine) {
   EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
-TEST_F(SimulateCommand, AFileWhereTheFolderBelongsIsSaid) {
+TEST_F(SimulateCommand, AFileInPlaceOfTheOutputFolderIsRefusedAndKept) {
   std::filesystem::create_directories(folder_.file("logs"));
   write_file(out_, "in the way");
   const ProgramRun run = simulate();

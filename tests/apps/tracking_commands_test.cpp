@@ -41,7 +41,7 @@ class TrackingCommands : public testing::Test {
   ProgramRun learned_;
 };
 
-TEST_F(TrackingCommands, LearnSaysWhatItLearnedAndWhatNot) {
+TEST_F(TrackingCommands, LearnReportsTheReferencesAndNoIdentification) {
   ASSERT_EQ(learned_.status, 0) << learned_.err;
   EXPECT_TRUE(has(learned_.out, "have no torque")) << learned_.out;
   EXPECT_TRUE(has(learned_.out, "Joint 1: the reference, for the position,"));
@@ -59,7 +59,7 @@ TEST_F(TrackingCommands, DiagnoseNamesTheStallInEveryFormat) {
   EXPECT_EQ(run_program({"diagnose", healthy_[0], "--model", model_}).status, 0);
 }
 
-TEST_F(TrackingCommands, CasesAndGoldenLogsTakeIt) {
+TEST_F(TrackingCommands, CasesAndGoldenLogsAcceptAFaultOfTracking) {
   const std::string json = folder_.file("stall.json");
   ASSERT_EQ(run_program({"diagnose", stall_, "--model", model_, "--json", json}).status, 1);
   const ProgramRun added = run_program(

@@ -14,7 +14,7 @@ TEST(BalanceModel, ExcessOfViscousFrictionKeepsTheFrictionAtHalfTheTopSpeed) {
   EXPECT_NEAR(viscous / kViscous - dry / kDry, kExcess, 1e-12);
 }
 
-TEST(BalanceModel, FrictionWithoutAViscousPartHasNone) {
+TEST(BalanceModel, ViscousPartIsZeroWithoutViscousFrictionAndOneWithoutDryFriction) {
   EXPECT_EQ(viscous_part(0.0, 3.0, 4.0), 0.0);
   EXPECT_EQ(viscous_part(-0.1, 3.0, 4.0), 0.0);
   EXPECT_EQ(viscous_part(2.0, 0.0, 4.0), 1.0);

@@ -71,7 +71,7 @@ TEST(Noise, AWhitenedLogHasTheExactEvidenceOfItsCovariance) {
   EXPECT_TRUE((white.transpose() * white).isApprox(exact(x, covariance_of(std, noise), all), 1e-9));
 }
 
-TEST(Noise, RowsWithoutWeightLeaveTheExactEvidenceOfTheOthers) {
+TEST(Noise, RowsWithoutWeightKeepTheExactEvidenceOfTheOtherRows) {
   const JointNoise noise = wandering_noise(1);
   VectorXd std = uneven_std();
   std::vector<Eigen::Index> kept;
@@ -87,7 +87,7 @@ TEST(Noise, RowsWithoutWeightLeaveTheExactEvidenceOfTheOthers) {
   EXPECT_TRUE(square.isApprox(right, 1e-9)) << square << "\n" << right;
 }
 
-TEST(Noise, TheFirstRowOfALogCountsAsOneOfTheWholeVariance) {
+TEST(Noise, TheFirstRowOfALogIsWhitenedByItsFullVariance) {
   const JointNoise noise = wandering_noise(3);
   VectorXd level = VectorXd::Ones(kRows);
   const VectorXd white = Whitener(VectorXd::Ones(kRows), noise)(level);
@@ -97,7 +97,7 @@ TEST(Noise, TheFirstRowOfALogCountsAsOneOfTheWholeVariance) {
   EXPECT_GT(1.0 / noise.innovation, 1.5) << "as if the rows before it had been zero";
 }
 
-TEST(Noise, ColumnsThatBeginLaterAreWhitenedLikeWholeOnes) {
+TEST(Noise, ColumnsThatBeginLaterAreWhitenedLikeCompleteColumns) {
   const JointNoise noise = wandering_noise(3);
   VectorXd std = uneven_std();
   std[12] = kNoWeight;
@@ -107,7 +107,7 @@ TEST(Noise, ColumnsThatBeginLaterAreWhitenedLikeWholeOnes) {
   EXPECT_TRUE(white.of(x.bottomRows(kRows - 11), 11).isApprox(white(x).bottomRows(kRows - 11), 1e-12));
 }
 
-TEST(Noise, ARowIsContainedInTheNextThreeWithWeight) {
+TEST(Noise, AValueOfARowReachesOnlyTheNextThreeRowsWithWeight) {
   VectorXd std = VectorXd::Ones(kRows);
   std[11] = kNoWeight;
   const Whitener white(std, wandering_noise(3));

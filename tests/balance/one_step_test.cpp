@@ -48,7 +48,7 @@ UniformLog driven_log(int samples) {
   return log;
 }
 
-TEST(OneStep, SlopesComeWithTheAccelerationOfTheLawAlsoWithRipple) {
+TEST(OneStep, AccelerationWithSlopesEqualsAccelerationAloneAlsoWithRipple) {
   MotionBody smooth = planar_arm();
   RigidColumns rigid = smooth.rigid();
   rigid.chain.ripples = {{.joint = 2_joint, .rate = 12.0, .cosine = 0.5, .sine = 0.3}};
@@ -64,7 +64,7 @@ TEST(OneStep, SlopesComeWithTheAccelerationOfTheLawAlsoWithRipple) {
   }
 }
 
-TEST(OneStep, SlopesAreThoseOfFiniteDifferences) {
+TEST(OneStep, SlopesEqualFiniteDifferences) {
   const MotionBody body = planar_arm();
   const VectorXd numbers = numbers_of(body);
   const UniformLog log = driven_log(3);
@@ -103,7 +103,7 @@ TEST(OneStep, SlopesAreThoseOfFiniteDifferences) {
 }
 
 /// A robot that unknown forces push, read with noise: what the filter is made for.
-TEST(OneStep, InnovationsAreWhiteAndTheSmootherKnowsTheTruth) {
+TEST(OneStep, InnovationsAreWhiteAndErrorsOfTheSmootherMatchItsVariance) {
   const MotionBody body = planar_arm();
   const VectorXd numbers = numbers_of(body);
   const MotionLaw law(body, numbers);

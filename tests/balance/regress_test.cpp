@@ -51,7 +51,7 @@ TEST(Regress, EstimateAndCovarianceAreThoseOfThePosterior) {
   EXPECT_NEAR(r.left, (p.rows - p.columns * r.estimate).squaredNorm(), 1e-9);
 }
 
-TEST(Regress, AKnownFactorOfTheFirstColumnsChangesNothing) {
+TEST(Regress, AReusedFactorOfTheFirstColumnsGivesTheSameRegression) {
   const Problem p = drawn_problem();
   const NormalEquations sums = normal_equations(p.columns, p.rows);
   const Regression whole = regress(sums, p.precision);
@@ -79,7 +79,7 @@ TEST(Regress, AColumnThatExplainsNothingLowersTheLikelihood) {
             regress(normal_equations(p.columns, p.rows), p.precision).log_likelihood);
 }
 
-TEST(RecursiveRegression, GivesTheEstimateAndTheSquaresOfAllRowsAtOnce) {
+TEST(RecursiveRegression, GivesTheSameEstimateAndSquaresAsOneRegressionOfAllRows) {
   constexpr int kRows = 40, kColumns = 5;
   Random random(3);
   Eigen::MatrixXd columns(kRows, kColumns);

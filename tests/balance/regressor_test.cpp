@@ -99,7 +99,7 @@ void expect_same_momentum_and_force(const Chain& chain, Random& random) {
   EXPECT_LT((force * stacked(chain) - f).norm(), 1e-11);
 }
 
-TEST(Regressor, ParallelAxesHaveTheSameMomentumAndForceByTheirOwnForm) {
+TEST(Regressor, FastDynamicsGiveMomentumAndForceOfTheRegressorForParallelAxes) {
   Random random(8);
   for (const char* axes : {"RRP", "PRR", "RRR", "RRRP", "P"})
     for (const Eigen::Vector3d& gravity :
@@ -113,7 +113,7 @@ TEST(Regressor, ParallelAxesHaveTheSameMomentumAndForceByTheirOwnForm) {
     }
 }
 
-TEST(Regressor, AxesThatCrossHaveTheSameMomentumAndForceInTheBaseFrame) {
+TEST(Regressor, FastDynamicsGiveMomentumAndForceOfTheRegressorForCrossedAxes) {
   Random random(9);
   for (int k = 0; k < 20; ++k) {
     Chain chain = crossed_chain(random);
@@ -123,7 +123,7 @@ TEST(Regressor, AxesThatCrossHaveTheSameMomentumAndForceInTheBaseFrame) {
   }
 }
 
-TEST(Regressor, LinkVectorRoundTrip) {
+TEST(Regressor, ALinkFromAVectorHasTheSameVector) {
   LinkVector v;
   v << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10;
   EXPECT_EQ(to_vector(link_from(v)), v);

@@ -52,7 +52,7 @@ const BalanceModel& sticking_model() {
   return learned;
 }
 
-TEST(Stiction, IsFoundInHealthyLogsAndDoesNotBendTheRobot) {
+TEST(Stiction, IsFoundInHealthyLogsAndDoesNotBiasTheIdentifiedFriction) {
   const ClosedFormScara truth;
   const BalanceModel& m = sticking_model();
   for (int j = 0; j < 2; ++j) {
@@ -63,21 +63,21 @@ TEST(Stiction, IsFoundInHealthyLogsAndDoesNotBendTheRobot) {
   EXPECT_EQ(m.stiction[2], 0.0);
 }
 
-TEST(Stiction, IsNotFoundWhereFrictionBySpeedExplainsTheRobotAtRest) {
+TEST(Stiction, IsNotFoundIfFrictionBySpeedExplainsTheRobotAtRest) {
   EXPECT_TRUE(testing::scara_model().stiction.isZero(0.0));
 }
 
-TEST(Stiction, ATorqueWithinItIsNoFault) {
+TEST(Stiction, ATorqueWithinStictionIsNotAFault) {
   const UniformLog healthy = on_grid(with_rest(simulate_closed_form(of_day(1), run_of(21)), -0.9));
   EXPECT_TRUE(explain_faults(healthy, sticking_model(), evidence_limits({})).faults.empty());
 }
 
-TEST(Stiction, ATorqueFarBeyondItIsAFault) {
+TEST(Stiction, ATorqueFarBeyondStictionIsAFault) {
   const UniformLog held = on_grid(with_rest(simulate_closed_form(of_day(1), run_of(21)), 6.0));
   EXPECT_FALSE(explain_faults(held, sticking_model(), evidence_limits({})).faults.empty());
 }
 
-TEST(RestingRows, AreThoseOfAJointThatStandsAndNotOfOneThatTurnsBack) {
+TEST(RestingRows, IncludeAJointAtRestButNotAJointThatReverses) {
   BalanceRows rows;
   rows.time_s = Eigen::VectorXd::LinSpaced(12, 0.0, 1.1);
   rows.torque = Eigen::MatrixXd::Zero(12, 2);
@@ -119,12 +119,12 @@ double first_stopped_s(const UniformLog& log) {
   return -1.0;
 }
 
-TEST(EndStop, RowsCountForNothingFromTheFirstHaltOn) {
+TEST(EndStop, RowsAreSilentFromTheFirstStopOnAlsoIfTheJointBounces) {
   for (const double bounces_s : {0.02, 0.28})
     EXPECT_NEAR(first_stopped_s(falling(4.0, 4.3, bounces_s)), 4.3, 0.06) << bounces_s;
 }
 
-TEST(EndStop, AJointThatMovesOnIsHeldByNone) {
+TEST(EndStop, AMovingJointIsHeldByNoEndStop) {
   EXPECT_EQ(first_stopped_s(on_grid(simulate_closed_form(of_day(0), run_of(31)))), -1.0);
 }
 

@@ -37,17 +37,17 @@ TEST(Ripples, TheRateIsFoundToTheNearestStep) {
   }
 }
 
-TEST(Ripples, NoiseHasNone) {
+TEST(Ripples, NoiseHasNoRipple) {
   EXPECT_FALSE(strongest_ripple(rippled(41.37, 0.0), kKernel_s, kRange, {RippleForm::constant, 0.5, 20.0}));
 }
 
-TEST(Ripples, ASlowerWaveThanTheLeastIsNotSearched) {
+TEST(Ripples, ARippleWithTooFewWavesIsNotSearched) {
   const RippleRows slow = rippled(4.0, 0.5);
   EXPECT_FALSE(strongest_ripple(slow, kKernel_s, kRange, {RippleForm::constant, 0.5, 20.0}));
   EXPECT_TRUE(strongest_ripple(slow, kKernel_s, kRange, {RippleForm::constant, 0.5, 6.0}));
 }
 
-TEST(Ripples, AJointThatDoesNotMoveHasNone) {
+TEST(Ripples, AJointAtRestHasNoRipple) {
   EXPECT_FALSE(strongest_ripple(rippled(41.37, 0.5), kKernel_s, 0.0, {RippleForm::constant, 0.5, 20.0}));
 }
 

@@ -55,7 +55,7 @@ UniformLog log_of(const ClosedFormRun& run, double lost_from_s = 1e9, double los
   return uniform_log(source, run.period_s);
 }
 
-TEST(BalanceRows, TheTrueRobotLeavesNothing) {
+TEST(BalanceRows, TheTrueRobotLeavesAlmostNoResidual) {
   const ClosedFormRun run{.period_s = 0.002, .q_noise = 0.0, .dq_noise = 0.0};
   const RowSetting setting = setting_for(run.period_s);
   const RigidColumns rigid = scara_columns();
@@ -68,7 +68,7 @@ TEST(BalanceRows, TheTrueRobotLeavesNothing) {
   }
 }
 
-TEST(BalanceRows, TheResidualOfATrajectoryIsThatOfItsColumns) {
+TEST(BalanceRows, TheResidualOfATrajectoryEqualsThatOfItsColumns) {
   const ClosedFormRun run{.period_s = 0.002};
   RowSetting setting = setting_for(run.period_s);
   setting.ripples = {{2_joint, 40.0}};

@@ -28,7 +28,7 @@ std::vector<double> stamps(const std::vector<int>& points, const std::vector<dou
   return out;
 }
 
-TEST(SampleGrid, ExactStampsStandWhereTheyAre) {
+TEST(SampleGrid, ExactTimeStampsKeepTheirPlaces) {
   std::vector<double> time;
   for (int k = 0; k < 100; ++k) time.push_back(3.0 + kPeriod_s * k);
   const SampleGrid grid = sample_grid(time, kPeriod_s);
@@ -37,12 +37,12 @@ TEST(SampleGrid, ExactStampsStandWhereTheyAre) {
   EXPECT_NEAR(grid.period_s, kPeriod_s, 1e-12);
 }
 
-TEST(SampleGrid, StampsThatWobbleByHalfAPeriodLoseNoRow) {
+TEST(SampleGrid, TimeStampsWithAJitterOfHalfAPeriodLoseNoRow) {
   const std::vector<double> error_ms{0.0, 0.8, -0.7, 0.0, 1.0, 0.2, -0.9};
   EXPECT_EQ(sample_grid(stamps(counted(200), error_ms), kPeriod_s).point, counted(200));
 }
 
-TEST(SampleGrid, TheUsualStepOfStampsThatWobbleNeedNotBeThePeriod) {
+TEST(SampleGrid, ThePeriodIsFoundFromAnInexactStartDespiteJitter) {
   Random random(3);
   std::vector<double> time;
   for (int k = 0; k < 2500; ++k) time.push_back(kPeriod_s * (k + 0.1 * random.normal()));
@@ -53,14 +53,14 @@ TEST(SampleGrid, TheUsualStepOfStampsThatWobbleNeedNotBeThePeriod) {
   }
 }
 
-TEST(SampleGrid, LostRowsLeaveTheirPointsFree) {
+TEST(SampleGrid, LostRowsLeaveTheirGridPointsEmpty) {
   std::vector<int> points = counted(200);
   points.erase(points.begin() + 120);
   points.erase(points.begin() + 50, points.begin() + 53);
   EXPECT_EQ(sample_grid(stamps(points, {0.0, 0.3, -0.3}), kPeriod_s).point, points);
 }
 
-TEST(SampleGrid, OfTwoRowsWithOneStampTheFirstCounts) {
+TEST(SampleGrid, TheFirstOfTwoRowsWithOneTimeStampIsUsed) {
   std::vector<int> points = counted(100), twice = points;
   twice.insert(twice.begin() + 40, 40);
   points.insert(points.begin() + 41, -1);
@@ -85,7 +85,7 @@ std::vector<std::vector<double>> positions_at(const std::vector<int>& points) {
   return out;
 }
 
-TEST(SampleGrid, PositionsSayWhereARowThatIsStampedLateBelongs) {
+TEST(SampleGrid, ARowWhosePositionContradictsItsTimeStampIsLeftOut) {
   std::vector<int> points = counted(300);
   points.erase(points.begin() + 150);
   std::vector<int> stamped = points;
@@ -97,7 +97,7 @@ TEST(SampleGrid, PositionsSayWhereARowThatIsStampedLateBelongs) {
   EXPECT_EQ(grid.point, points);
 }
 
-TEST(SampleGrid, JointsThatSpeedUpFastLoseNoRow) {
+TEST(SampleGrid, JointsThatAccelerateFastLoseNoRow) {
   std::vector<double> time;
   std::vector<std::vector<double>> positions(2);
   for (int k = 0; k < 500; ++k) {
@@ -108,12 +108,12 @@ TEST(SampleGrid, JointsThatSpeedUpFastLoseNoRow) {
   EXPECT_EQ(sample_grid(time, 0.01, row_steps(positions)).point, counted(500));
 }
 
-TEST(SampleGrid, StampsWobbleWhereTheyAreRounded) {
+TEST(SampleGrid, JitterIsFoundOnlyInInexactTimeStamps) {
   EXPECT_FALSE(stamps_jitter(stamps(counted(300), {0.0}), kPeriod_s));
   EXPECT_TRUE(stamps_jitter(stamps(counted(300), {0.0, 0.8, -0.7}), kPeriod_s));
 }
 
-TEST(SampleGrid, APositionThatJumpsMovesNoRow) {
+TEST(SampleGrid, AJumpOfAPositionMovesNoRow) {
   const std::vector<int> points = counted(300);
   std::vector<std::vector<double>> positions = positions_at(points);
   for (int k = 140; k < 300; ++k) positions[0][k] += 0.01;

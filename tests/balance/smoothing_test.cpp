@@ -23,7 +23,7 @@ TEST(Smoothing, TheKernelHasSumOneAndTheGainOfAGaussian) {
   EXPECT_LT((y - gain * x).segment(100, 800).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-TEST(Smoothing, AtSomeRowsItIsThatOfAllRows) {
+TEST(Smoothing, SmoothingAtSomeRowsEqualsSmoothingOfAllRows) {
   const Eigen::VectorXd kernel = gaussian_kernel(0.01, 0.001), x = sine(500, 0.001, 3.0);
   const Eigen::MatrixXd all = smooth(x, kernel), some = smooth_at(x, kernel, 50, 10, 40);
   for (int m = 0; m < 40; ++m) EXPECT_EQ(some(m, 0), all(50 + 10 * m, 0));
@@ -47,7 +47,7 @@ TEST(Smoothing, TheGradientOfAParabolaIsItsSlope) {
 }
 
 }  // namespace
-TEST(Smoothing, TheNormalDistributionIsExactToItsTable) {
+TEST(Smoothing, TheTabulatedNormalDistributionIsAccurate) {
   for (double x = -7.0; x <= 7.0; x += 0.00173)
     EXPECT_NEAR(normal_cdf(x), 0.5 * std::erfc(-x / std::sqrt(2.0)), 2e-9) << x;
   EXPECT_EQ(normal_cdf(-6.0), 0.0);

@@ -31,13 +31,13 @@ UniformLog without_row(int missing, double (*position)(double)) {
   return uniform_log(source, kPeriod_s);
 }
 
-TEST(UniformLog, AMissingRowOfASmoothMotionIsBridgedByACubic) {
+TEST(UniformLog, AMissingRowOfASmoothMotionIsInterpolatedByACubic) {
   const UniformLog log = without_row(150, [](double t) { return std::sin(5.0 * t); });
   EXPECT_FALSE(log.lost[150]);
   EXPECT_NEAR(log.q(150, 0), std::sin(5.0 * 150 * kPeriod_s), 1e-8);
 }
 
-TEST(UniformLog, AMissingRowOfARepeatedCodeRepeatsIt) {
+TEST(UniformLog, AMissingRowBetweenEqualEncoderCodesRepeatsTheCode) {
   const UniformLog log = without_row(150, [](double) { return -1.07282781; });
   for (int k = 1; k < log.rows(); ++k) ASSERT_EQ(log.q(k, 0), log.q(k - 1, 0)) << k;
 }
@@ -55,7 +55,7 @@ UniformLog rising(int rows) {
   return log;
 }
 
-TEST(UniformLog, AMeanStandsAtTheMiddleOfItsSamples) {
+TEST(UniformLog, AMeanHasTheTimeOfTheMiddleOfItsSamples) {
   const UniformLog means = averaged(rising(11), 4, false);
   ASSERT_EQ(means.rows(), 2);
   for (int k = 0; k < 2; ++k) {
@@ -75,7 +75,7 @@ TEST(UniformLog, AHeldTorqueIsAveragedOverTheTimeThatItActs) {
   EXPECT_NEAR(means.tau(1, 0), acts, 1e-12);
 }
 
-TEST(UniformLog, TheFirstRowStandsAtATimeOrBehindIt) {
+TEST(UniformLog, FirstRowReturnsTheRowAtOrAfterATime) {
   const UniformLog log = rising(5);
   EXPECT_EQ(log.first_row(-1.0), 0);
   EXPECT_EQ(log.first_row(3 * kPeriod_s), 3);
@@ -83,7 +83,7 @@ TEST(UniformLog, TheFirstRowStandsAtATimeOrBehindIt) {
   EXPECT_EQ(log.first_row(4.5 * kPeriod_s), 5);
 }
 
-TEST(UniformLog, AMeanIsLostWithAnyOfItsSamples) {
+TEST(UniformLog, AMeanIsLostIfAnyOfItsSamplesIsLost) {
   UniformLog log = rising(12);
   log.lost[6] = true;
   EXPECT_EQ(averaged(std::move(log), 4, false).lost, (std::vector<bool>{false, true, false}));

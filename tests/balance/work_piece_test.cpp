@@ -17,7 +17,7 @@ Eigen::MatrixXd carried(int from, int to, double noise) {
   return out;
 }
 
-TEST(PiecePathTest, FindsWhenAPieceComesAndGoes) {
+TEST(WorkPiecePath, FindsWhenAWorkPieceIsPickedUpAndPutDown) {
   const PiecePath path = piece_path(carried(120, 300, 0.5), Eigen::MatrixXd::Constant(kRows, 1, 2.0),
                                     Eigen::MatrixXd::Constant(kRows, 1, 0.5));
   for (int k = 0; k < kRows; ++k) {
@@ -26,7 +26,7 @@ TEST(PiecePathTest, FindsWhenAPieceComesAndGoes) {
   }
 }
 
-TEST(PiecePathTest, ASingleWildRowChangesNothing) {
+TEST(WorkPiecePath, ASingleOutlierChangesNoLevel) {
   Eigen::MatrixXd residual = carried(0, 0, 0.5);
   residual(200, 0) = 50.0;
   const PiecePath path = piece_path(residual, Eigen::MatrixXd::Constant(kRows, 1, 2.0),
@@ -34,7 +34,7 @@ TEST(PiecePathTest, ASingleWildRowChangesNothing) {
   for (const char level : path) EXPECT_EQ(level, 0);
 }
 
-TEST(PiecePathTest, RampsGoFromOneLevelToTheOther) {
+TEST(WorkPiecePath, RampsJoinSuccessiveLevels) {
   PiecePath path(kRows, 0);
   for (int k = 200; k < kRows; ++k) path[k] = 1;
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(kRows, 0.0, 0.01 * (kRows - 1));

@@ -38,7 +38,7 @@ BatchRow faulty_row() {
 
 int cells(const std::string& line) { return 1 + static_cast<int>(std::count(line.begin(), line.end(), ',')); }
 
-TEST(BatchRow, ComesBackFromItsJsonLineAsItWas) {
+TEST(BatchRow, IsReadBackFromItsJsonLine) {
   const std::string line = to_json_line(faulty_row());
   EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1);
   const BatchRow read = row_from_json(line);
@@ -55,7 +55,7 @@ TEST(BatchRow, ComesBackFromItsJsonLineAsItWas) {
   EXPECT_EQ(read.parameters[0].value, 2.5);
 }
 
-TEST(BatchRow, ItsTableLineIsNoFormulaAndCommandsNoTerminal) {
+TEST(BatchRow, ItsCsvLineHoldsNoFormulaAndNoTerminalCommand) {
   BatchRow row = faulty_row();
   row.log = "=cmd|'/c calc'!A0\x1b[2J.csv";
   row.reason = "@SUM(1)\x1b]0;x\x07";
@@ -64,7 +64,7 @@ TEST(BatchRow, ItsTableLineIsNoFormulaAndCommandsNoTerminal) {
   EXPECT_NE(line.find(",'@SUM(1)?]0;x?,"), std::string::npos) << line;
 }
 
-TEST(BatchRow, WithoutADiagnosisComesBackToo) {
+TEST(BatchRow, AnUnusableLogIsReadBackFromItsJsonLine) {
   const BatchRow row =
       unusable_row("runs/a.csv", "/data/runs/a.csv", Error(ErrorCode::input, "/data/runs/a.csv", "is empty"));
   const BatchRow read = row_from_json(to_json_line(row));
@@ -82,7 +82,7 @@ TEST(BatchRow, TheReasonHoldsThePlaceInTheFileAndNoFolder) {
   EXPECT_EQ(unusable_row("runs/a.csv", "/data/runs/a.csv", whole).verdict, "failed");
 }
 
-TEST(BatchRow, TheCsvLineHasACellAColumnAndQuotesNames) {
+TEST(BatchRow, TheCsvLineHasOneCellPerColumnAndQuotesNames) {
   BatchRow row = faulty_row();
   const std::string line = to_csv_line(row);
   EXPECT_TRUE(
@@ -95,12 +95,12 @@ TEST(BatchRow, TheCsvLineHasACellAColumnAndQuotesNames) {
   EXPECT_EQ(cells(to_csv_line(row)), cells(batch_csv_header()));
 }
 
-TEST(BatchRow, TheLargestResidualThatWasMeasuredIsItsLevel) {
+TEST(BatchRow, ItsResidualLevelIsTheLargestMeasuredResidual) {
   EXPECT_EQ(residual_level(faulty_row()), 2.5);
   EXPECT_TRUE(std::isnan(residual_level(BatchRow{})));
 }
 
-TEST(BatchRow, StatusAndFolder) {
+TEST(BatchRow, ItsStatusFollowsFromItsVerdictAndItsFolderFromItsLog) {
   BatchRow row;
   row.verdict = "healthy";
   EXPECT_EQ(status_of(row), 0);

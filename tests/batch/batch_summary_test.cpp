@@ -99,13 +99,13 @@ TEST(BatchSummary, TheWorstLogDecidesTheStatus) {
   EXPECT_EQ(summary_of(some, facts()).status, 0);
 }
 
-TEST(BatchSummary, OfNothingHasNoResidualAndNoRate) {
+TEST(BatchSummary, AnEmptyBatchHasNoResidualAndNoFaultRate) {
   const Json all = Json::parse(to_json(summary_of({}, facts())))["all"];
   EXPECT_TRUE(all["median_residual"].is_null());
   EXPECT_TRUE(all["faults_per_hour"].is_null());
 }
 
-TEST(BatchSummary, TheJsonHasAFaultOfNoJointAsNull) {
+TEST(BatchSummary, TheJsonHasNullForTheJointOfAFaultWithoutJoint) {
   const Json json = Json::parse(to_json(summary_of(rows(), facts())));
   EXPECT_EQ(json["schema"], "faultline/batch-summary/2");
   EXPECT_EQ(json["shard"], 1);
@@ -122,7 +122,7 @@ TEST(BatchSummary, TheTextNamesCountsAndKinds) {
             "  not diagnosed: b/4.csv: \n");
 }
 
-TEST(BatchFacts, ComeBackFromTheirFileAndOtherSettingsDiffer) {
+TEST(BatchFacts, AreReadBackFromTheirFileAndDistinguishOtherSettings) {
   const TemporaryFolder folder;
   const BatchFacts read = read_facts(folder.write("finished.json", facts_to_json(facts())));
   EXPECT_EQ(facts_to_json(read), facts_to_json(facts()));
@@ -140,7 +140,7 @@ TEST(BatchFacts, ComeBackFromTheirFileAndOtherSettingsDiffer) {
   EXPECT_THROW(read_facts(folder.write("cut.json", facts_to_json(facts()).substr(0, 40))), Error);
 }
 
-TEST(BatchFacts, OfAnotherSchemaAreRefusedWithACure) {
+TEST(BatchFacts, OfAnotherSchemaAreRefusedWithAdvice) {
   const TemporaryFolder folder;
   std::string text = facts_to_json(facts());
   text.replace(text.find("faultline/batch/2"), 17, "faultline/batch/1");

@@ -28,26 +28,26 @@ std::string refusal(const std::vector<std::string>& names, const std::vector<std
   return "";
 }
 
-TEST(ChooseModels, TakesTheFolderAndElseThePlainModel) {
+TEST(ChooseModels, PrefersTheModelOfTheFolderToThePlainModel) {
   EXPECT_EQ(chosen({"runs/line1/a.csv", "runs/line2/b.csv", "runs/line1/day/c.csv"}, {"", "line1"}),
             (std::vector<int>{1, 0, 1}));
   EXPECT_EQ(chosen({"runs/line1/a.csv"}, {"runs/line1/"}), std::vector<int>{0});
 }
 
-TEST(ChooseModels, AFolderIsWholeNamesAndNotTheLog) {
+TEST(ChooseModels, AFolderMatchesOnlyCompleteFolderNamesOfALog) {
   EXPECT_EQ(chosen({"runs/line10/a.csv", "runs/line1/line1", "line1/x.csv"}, {"", "line1"}),
             (std::vector<int>{0, 1, 1}));
   EXPECT_EQ(chosen({"runs/b/line1", "line1/a.csv"}, {"", "line1"}), (std::vector<int>{0, 1}));
 }
 
-TEST(ChooseModels, TheDeepestFolderCountsWhateverTheOrder) {
+TEST(ChooseModels, TheDeepestFolderDecidesInAnyOrderOfTheModels) {
   const std::vector<std::string> names{"runs/line1/day2/a.csv"};
   EXPECT_EQ(chosen(names, {"line1", "day2"}), std::vector<int>{1});
   EXPECT_EQ(chosen(names, {"day2", "line1"}), std::vector<int>{0});
   EXPECT_EQ(chosen(names, {"day2", "line1/day2"}), std::vector<int>{1});
 }
 
-TEST(ChooseModels, AFolderOfThisMachineIsFoundByItsPath) {
+TEST(ChooseModels, AnExistingFolderIsMatchedByItsPath) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder.file("plant/line1"));
   const std::vector<BatchLog> found{{folder.write("plant/line1/a.csv", "x"), "line1/a.csv", 0},
@@ -60,7 +60,7 @@ TEST(ChooseModels, AFolderOfThisMachineIsFoundByItsPath) {
   EXPECT_NO_THROW(with_models(found, {"", folder.file("plant/empty")})) << "no logs today";
 }
 
-TEST(ChooseModels, LogsWithoutAModelUnknownFoldersAndDoublesAreRefused) {
+TEST(ChooseModels, LogsWithoutAModelUnknownFoldersAndDuplicatesAreRefused) {
   EXPECT_NE(refusal({"runs/line1/a.csv", "runs/line2/b.csv", "c.csv"}, {"line1"})
                 .find("runs/line2/b.csv: 2 of 3 logs have no model"),
             std::string::npos);

@@ -46,7 +46,7 @@ TEST_F(FindLogs, FoldersAreSearchedAndSortedByName) {
   EXPECT_EQ(found({"runs/a/../a"}), (std::vector<std::string>{"a/B.CSV", "a/z.flog"}));
 }
 
-TEST_F(FindLogs, LabelsReportsHiddenFilesAndResultsAreNoLogs) {
+TEST_F(FindLogs, LabelsReportsHiddenFilesAndResultsAreNotLogs) {
   add("runs/good.csv");
   add("runs/labels.csv", "file,fault,joint,onset_s\n");
   add("runs/truth.csv", "file,fault,joint,onset_s\n");
@@ -58,7 +58,7 @@ TEST_F(FindLogs, LabelsReportsHiddenFilesAndResultsAreNoLogs) {
   EXPECT_EQ(found({"runs"}), std::vector<std::string>{"runs/good.csv"});
 }
 
-TEST_F(FindLogs, AFileReachedTwiceIsOneLogAndAGivenFileIsTakenWhateverItIs) {
+TEST_F(FindLogs, AFileFoundTwiceIsOneLogAndANamedFileIsAlwaysALog) {
   add("runs/a.csv");
   add("notes");
   EXPECT_EQ(found({"runs", "runs/a.csv", "runs/../runs"}).size(), 1u);
@@ -72,7 +72,7 @@ TEST_F(FindLogs, EqualNamesInTwoFoldersAreTwoLogs) {
   EXPECT_EQ(found({"x/runs", "y/runs"}), (std::vector<std::string>{"runs/a.csv", "runs/a.csv"}));
 }
 
-TEST_F(FindLogs, AMissingPathIsAnErrorAndALinkToItsOwnFolderIsNoLoop) {
+TEST_F(FindLogs, AMissingPathIsAnErrorAndALinkToItsOwnFolderMakesNoLoop) {
   EXPECT_THROW(found({"nothing"}), Error);
   add("runs/a.csv");
   fs::create_directory_symlink(folder_.path() / "runs", folder_.path() / "runs/again");

@@ -63,12 +63,12 @@ class ForeignResults : public testing::Test {
   JournalEntry entry_;
 };
 
-TEST_F(ForeignResults, ThatAreSoundAreMerged) {
+TEST_F(ForeignResults, ValidResultsAreMerged) {
   EXPECT_EQ(merge_batches({part()}, out()).all.logs, 1);
   EXPECT_EQ(read_file(out() + "/logs/runs_a.csv-0123456789ab.json"), kReport);
 }
 
-TEST_F(ForeignResults, ANameThatIsNoneInTheFolderIsRefused) {
+TEST_F(ForeignResults, ANameThatLeavesTheFolderIsRefused) {
   folder_.write("from/settings.json", kReport);  // what it would be copied from
   for (const std::string& name : {std::string("../../settings"), std::string(".."), std::string("a/b"),
                                   std::string("/etc/hosts"), std::string("a\nb"), std::string("a\0b", 3)}) {
@@ -84,7 +84,7 @@ TEST_F(ForeignResults, ANameThatIsNoneInTheFolderIsRefused) {
   }
 }
 
-TEST_F(ForeignResults, AResultWithoutANameHasNoFiles) {
+TEST_F(ForeignResults, AResultWithoutANameIsRefused) {
   entry_.row.result = "";
   write_part();
   expect_refused(".batch/journal", "not the name of a file");

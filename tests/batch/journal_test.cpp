@@ -25,7 +25,7 @@ JournalEntry entry(const std::string& key, int position) {
   return made;
 }
 
-TEST(Journal, EntriesComeBackAsTheyWere) {
+TEST(Journal, EntriesAreReadBackUnchanged) {
   const TemporaryFolder folder;
   {
     JournalWriter journal(folder.file("journal"));
@@ -38,7 +38,7 @@ TEST(Journal, EntriesComeBackAsTheyWere) {
   EXPECT_EQ(read.at("b").row.result, "runs_b");
 }
 
-TEST(Journal, ALineCutAnywhereDoesNotCountAndSpoilsNoOther) {
+TEST(Journal, ACutLineIsIgnoredAndAffectsNoOtherLine) {
   const TemporaryFolder folder;
   const std::string first = to_journal_line(entry("a", 0)), second = to_journal_line(entry("b", 1));
   for (std::size_t cut = 0; cut + 1 < second.size(); cut += 7) {
@@ -51,14 +51,14 @@ TEST(Journal, ALineCutAnywhereDoesNotCountAndSpoilsNoOther) {
   }
 }
 
-TEST(Journal, AChangedByteDoesNotCount) {
+TEST(Journal, ALineWithAChangedByteIsIgnored) {
   const TemporaryFolder folder;
   std::string line = to_journal_line(entry("a", 0));
   line[line.find("faulty")] = 'F';
   EXPECT_TRUE(read_journal(folder.write("journal", line)).empty());
 }
 
-TEST(GrowingFile, KeepsWhatIsTheSameAndWritesAnewFromTheFirstDifference) {
+TEST(GrowingFile, KeepsEqualLinesAndRewritesFromTheFirstDifference) {
   const TemporaryFolder folder;
   const std::string path = folder.write("index", "one\ntwo\nthree\nfour\nto");
   GrowingFile file(path);

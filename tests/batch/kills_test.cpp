@@ -11,7 +11,7 @@
 namespace faultline {
 namespace {
 
-TEST(BatchKills, KilledAtAnyMomentItGoesOnToTheSameBytes) {
+TEST(KilledBatch, ContinuesToTheSameBytesAfterAKillAtAnyTime) {
   const BatchWorld world;
   world.add_logs(12, 20.0);
   const auto start = std::chrono::steady_clock::now();

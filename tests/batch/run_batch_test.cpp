@@ -60,7 +60,7 @@ TEST_F(RunBatch, ARowHoldsTheHashOfItsLog) {
     EXPECT_NE(index("out").find("\"sha256\":\"" + sha256_of_file(log.path)), std::string::npos);
 }
 
-TEST_F(RunBatch, WhatIsDoneIsNotOpenedAgain) {
+TEST_F(RunBatch, AFinishedLogIsNotOpenedAgain) {
   run("out");
   EXPECT_EQ(opened_, 2);
   EXPECT_EQ(run("out").diagnosed, 0);
@@ -70,7 +70,7 @@ TEST_F(RunBatch, WhatIsDoneIsNotOpenedAgain) {
   EXPECT_EQ(opened_, 3);
 }
 
-TEST_F(RunBatch, ALogThatGrowsWhileItIsReadIsUnusableAndDoneAgain) {
+TEST_F(RunBatch, ALogThatGrowsWhileItIsReadIsUnusableAndDiagnosedAgain) {
   grows_ = logs_[1].path;
   EXPECT_EQ(run("out").summary.all.unusable, 1);
   EXPECT_NE(index("out").find("changed while it was read"), std::string::npos);
@@ -85,7 +85,7 @@ TEST_F(RunBatch, ALogThatIsOnlyTouchedWhileItIsReadIsUsed) {
   EXPECT_EQ(run("out").summary.all.unusable, 0);
 }
 
-TEST_F(RunBatch, AnUnusableLogIsKeptUntilItIsAnotherOne) {
+TEST_F(RunBatch, AnUnusableLogIsNotDiagnosedAgainUntilItChanges) {
   write_file(logs_[0].path, "one,two\nthree,four\n");
   EXPECT_EQ(run("out").summary.all.unusable, 1);
   EXPECT_EQ(run("out").diagnosed, 0);
@@ -95,7 +95,7 @@ TEST_F(RunBatch, AnUnusableLogIsKeptUntilItIsAnotherOne) {
   EXPECT_EQ(again.summary.all.unusable, 0);
 }
 
-TEST_F(RunBatch, ADefectOfTheProgramIsARowThatTheNextRunDoesAgain) {
+TEST_F(RunBatch, ALogThatFailedByADefectIsDiagnosedAgain) {
   const OpenLog broken = [](const std::string&, const Robot&) -> std::unique_ptr<LogSource> {
     throw std::logic_error("out of range");
   };
@@ -107,7 +107,7 @@ TEST_F(RunBatch, ADefectOfTheProgramIsARowThatTheNextRunDoesAgain) {
   EXPECT_NE(index("out").find(sha256_of_file(logs_[0].path)), std::string::npos);
 }
 
-TEST(UnusableResult, HasAKeyOnlyWhenTheFileIsTheOneThatWasRead) {
+TEST(UnusableResult, HasAKeyOnlyIfTheFileIsUnchangedSinceItWasRead) {
   const TemporaryFolder folder;
   const BatchLog log{folder.write("a.csv", "x"), "runs/a.csv", 0};
   const Error reason(ErrorCode::input, log.path, "is no log");
@@ -124,7 +124,7 @@ TEST(UnusableResult, HasAKeyOnlyWhenTheFileIsTheOneThatWasRead) {
   EXPECT_EQ(gone.row.reason, "is no log");
 }
 
-TEST(EarlierResults, CountOnlyWhileTheirFilesAreAsWritten) {
+TEST(EarlierResults, AreUsedOnlyIfTheirFilesAreUnchanged) {
   const TemporaryFolder folder;
   const BatchFolder out(folder.file("out"), false);
   const BatchLog log{folder.write("a.csv", "x"), "runs/a.csv", 0};

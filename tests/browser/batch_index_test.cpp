@@ -128,7 +128,7 @@ TEST(BatchIndexInChromium, TheAddressKeepsColumnsOrderAndFilters) {
   EXPECT_EQ(strange.page.complaints(), std::vector<std::string>{});
 }
 
-TEST(BatchIndexInChromium, APhoneReadsItWithoutScrollingSideways) {
+TEST(BatchIndexInChromium, TheIndexFitsOnAPhoneWithoutHorizontalScrolling) {
   NEEDS_CHROMIUM;
   auto all = rows(60);
   all[0].log = "runs/" + std::string(300, 'w') + ".csv";
@@ -174,7 +174,7 @@ TEST(BatchIndexInChromium, TrendsZoomByDragKeyAndButton) {
   EXPECT_NE(index.range(), "0.5 54.5");
 }
 
-TEST(BatchIndexInChromium, APointTellsItsLogAndLeadsToItsReportAndItsRow) {
+TEST(BatchIndexInChromium, APointShowsItsLogAndLinksToItsReportAndItsRow) {
   NEEDS_CHROMIUM;
   OpenIndex index(rows(60));
   index.show_trends();
@@ -216,7 +216,7 @@ TEST(BatchIndexInChromium, AllFoldersAreInTheLegendAndParametersHaveIntervals) {
   EXPECT_NE(told.find("(95 %: "), std::string::npos) << told;
 }
 
-TEST(BatchIndexInChromium, ATrendThatNoLogTellsIsNotDrawn) {
+TEST(BatchIndexInChromium, ATrendWithoutValuesIsNotDrawn) {
   NEEDS_CHROMIUM;
   const auto draws_friction = [](const char* parameter) -> bool {
     std::vector<BatchRow> all = rows(20);
@@ -261,7 +261,7 @@ TEST(BatchIndexInChromium, TenThousandLogsOpenFilterAndScrollAndHostileNamesStay
 }
 
 /// What the figures are, from the Web Content Accessibility Guidelines.
-TEST(BatchIndexInChromium, WhatCanBePressedHasANameASizeAndContrast) {
+TEST(BatchIndexInChromium, EveryControlHasANameASizeAndContrast) {
   NEEDS_CHROMIUM;
   for (const bool dark : {false, true}) {
     OpenIndex index(rows(60), {.width = 390, .height = 6000, .dark = dark});
@@ -286,7 +286,7 @@ TEST(BatchIndexInChromium, WhatCanBePressedHasANameASizeAndContrast) {
   }
 }
 
-TEST(BatchIndexInChromium, WithoutScriptTheTableIsThere) {
+TEST(BatchIndexInChromium, WithoutScriptThePageShowsItsTable) {
   NEEDS_CHROMIUM;
   OpenIndex index(rows(20), {.script = false});
   EXPECT_EQ(index.page.evaluate("document.querySelectorAll('.logs tbody tr').length"), 20);

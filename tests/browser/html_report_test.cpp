@@ -34,7 +34,7 @@ TEST(HtmlInChromium, PolicyForbidsTheNetwork) {
             "refused");
 }
 
-TEST(HtmlInChromium, TimelineClickGoesToTheFaultAndZooms) {
+TEST(HtmlInChromium, AClickOnTheTimelineShowsTheFaultAndZooms) {
   SKIP_WITHOUT_CHROMIUM();
   OpenReport report(traced_diagnosis());
   EXPECT_NEAR(report.range_of(kRunPlot).second, 9.999, 1e-9);
@@ -63,7 +63,7 @@ TEST(HtmlInChromium, DraggingZoomsAllPlotsOfTheGroupAndDoubleClickResets) {
   EXPECT_NEAR(report.range_of(kOtherRunPlot).second, 9.999, 1e-9);
 }
 
-TEST(HtmlInChromium, CursorIsLinked) {
+TEST(HtmlInChromium, PlotsOfAGroupShareTheirCursor) {
   SKIP_WITHOUT_CHROMIUM();
   OpenReport report(traced_diagnosis());
   report.range_of(kOtherRunPlot);
@@ -114,7 +114,7 @@ TEST(HtmlInChromium, HostileNamesAreText) {
   EXPECT_TRUE(report.page.complaints().empty()) << report.page.complaints().front();
 }
 
-TEST(HtmlInChromium, WithoutScriptThereArePicturesAndTables) {
+TEST(HtmlInChromium, WithoutScriptThePageShowsPicturesAndTables) {
   SKIP_WITHOUT_CHROMIUM();
   OpenReport report(traced_diagnosis(), {.script = false});
   EXPECT_EQ(report.page.evaluate("document.querySelectorAll('figure.drawn').length"), 0);
@@ -165,7 +165,7 @@ const char* kContrast = R"((selector => {
   const b = light(getComputedStyle(document.body).backgroundColor);
   return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05); }))";
 
-TEST(HtmlInChromium, ReadableInLightAndDark) {
+TEST(HtmlInChromium, TextHasEnoughContrastInLightAndDark) {
   SKIP_WITHOUT_CHROMIUM();
   for (const bool dark : {false, true}) {
     OpenReport report(traced_diagnosis(), {.dark = dark});

@@ -63,7 +63,7 @@ std::string made_page(const TemporaryFolder& folder, std::vector<std::string> ar
   return path;
 }
 
-TEST(PagesAreReadable, ReportOfAFault) {
+TEST(PagesAreReadable, TheReportOfAFaultIsReadable) {
   NEEDS_CHROMIUM();
   const TemporaryFolder folder;
   expect_readable(made_page(
@@ -71,7 +71,7 @@ TEST(PagesAreReadable, ReportOfAFault) {
                kSamples + "golden/model-749d7413.json", "--cases", kSamples + "golden/cases-18392bf9.db"}));
 }
 
-TEST(PagesAreReadable, ReportOfManyFaultsAndLongNames) {
+TEST(PagesAreReadable, AReportOfManyFaultsAndLongNamesIsReadable) {
   NEEDS_CHROMIUM();
   Diagnosis d = hostile_diagnosis();
   for (int i = 0; i < 20; ++i) {
@@ -88,7 +88,7 @@ TEST(PagesAreReadable, ReportOfManyFaultsAndLongNames) {
   expect_readable(folder.write("report.html", render_html(d, details)), {320, 1280});
 }
 
-TEST(PagesAreReadable, Identification) {
+TEST(PagesAreReadable, TheReportOfAnIdentificationIsReadable) {
   NEEDS_CHROMIUM();
   const TemporaryFolder folder;
   expect_readable(
@@ -96,7 +96,7 @@ TEST(PagesAreReadable, Identification) {
                          "--robot", kSamples + "bench/robot.toml", "-o", folder.file("identified.toml")}));
 }
 
-TEST(PagesAreReadable, InspectionOfTwoLogs) {
+TEST(PagesAreReadable, TheInspectionOfTwoLogsIsReadable) {
   NEEDS_CHROMIUM();
   const TemporaryFolder folder;
   expect_readable(
@@ -104,7 +104,7 @@ TEST(PagesAreReadable, InspectionOfTwoLogs) {
                          "--robot", kSamples + "bench/robot.toml"}));
 }
 
-TEST(PageRules, FindWhatBreaksThem) {
+TEST(PageRules, FindEachViolation) {
   NEEDS_CHROMIUM();
   const TemporaryFolder folder;
   BrowserPage page;
@@ -125,7 +125,7 @@ TEST(PageRules, FindWhatBreaksThem) {
 }
 
 /// The report's layout where it changes, in a form that fonts and versions of the browser do not touch.
-TEST(ReportLayout, IsAsApproved) {
+TEST(ReportLayout, EqualsTheApprovedLayout) {
   NEEDS_CHROMIUM();
   const TemporaryFolder folder;
   const Diagnosis d = traced_diagnosis();

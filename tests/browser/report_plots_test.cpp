@@ -7,7 +7,7 @@ namespace {
 
 double height_of_page(BrowserPage& page) { return page.evaluate("document.documentElement.scrollHeight"); }
 
-TEST(ReportPlots, PointingTellsTheTimeAndMovesNothing) {
+TEST(ReportPlots, PointingShowsTheTimeAndMovesNothing) {
   SKIP_WITHOUT_CHROMIUM();
   for (const int width : {390, 1280}) {
     OpenReport report(traced_diagnosis(), {.width = width});
@@ -55,7 +55,7 @@ TEST(ReportPlots, ButtonsDoWhatDraggingDoes) {
   EXPECT_NEAR(report.range_of("plot-run-q2").second, 9.999, 1e-9);
 }
 
-TEST(ReportPlots, TorqueIsCalledWhatItIs) {
+TEST(ReportPlots, TheLegendNamesTheMeaningOfTheTorque) {
   Diagnosis d = traced_diagnosis();
   ReportDetails details = example_details(d);
   const char* words[] = {"commanded", "measured", "from motor current"};

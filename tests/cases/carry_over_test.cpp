@@ -30,7 +30,7 @@ CaseBase base_of(const std::string& model, std::vector<std::string> features = {
   return base;
 }
 
-TEST(CarryOver, WhatPeopleAddedStaysAndIsMarkedAsOfTheEarlierModel) {
+TEST(CarryOver, AFieldCaseIsCarriedOverAndMarkedWithTheEarlierModel) {
   CaseBase old = base_of("old"), fresh = base_of("new");
   const auto id = old.retain(field_case(2.0));
   const CarriedCases count = carry_over(old, fresh);
@@ -46,7 +46,7 @@ TEST(CarryOver, WhatPeopleAddedStaysAndIsMarkedAsOfTheEarlierModel) {
   EXPECT_EQ(fresh.model_identity(), "new");
 }
 
-TEST(CarryOver, ASimulatedCaseThatSomebodyRevisedStays) {
+TEST(CarryOver, ARevisedSimulatedCaseIsCarriedOver) {
   CaseBase old = base_of("old"), fresh = base_of("new");
   old.reject(2, kBias);
   EXPECT_EQ(carry_over(old, fresh).carried, 1);
@@ -54,7 +54,7 @@ TEST(CarryOver, ASimulatedCaseThatSomebodyRevisedStays) {
   EXPECT_EQ(fresh.cases().back().id, 4) << "2 is taken";
 }
 
-TEST(CarryOver, ACaseThatSomebodySignedStaysThoughItsLabelIsTheSame) {
+TEST(CarryOver, ASignedCaseIsCarriedOverAlsoIfItsLabelIsUnchanged) {
   CaseBase old = base_of("old"), fresh = base_of("new");
   fresh.describe_robot({"bench", "RRP"});
   old.confirm(2, {}, "", {"A. Weber", "2026-03-02"});
@@ -63,7 +63,7 @@ TEST(CarryOver, ACaseThatSomebodySignedStaysThoughItsLabelIsTheSame) {
   EXPECT_EQ(fresh.robot().axes, "RRP");
 }
 
-TEST(CarryOver, FeaturesGoByName) {
+TEST(CarryOver, FeaturesAreMatchedByName) {
   CaseBase old = base_of("old"), fresh = base_of("new", {"noise", "other", "a"});
   old.retain(field_case(2.0));
   carry_over(old, fresh);
@@ -74,7 +74,7 @@ TEST(CarryOver, FeaturesGoByName) {
   EXPECT_EQ(after[2], before[0]);
 }
 
-TEST(CarryOver, TheSameFaultOfTheSameLabelledLogHasItsFeaturesAnewAndIsThereOnce) {
+TEST(CarryOver, ARepeatedFaultOfALabelledLogStaysOneCaseWithNewFeatures) {
   CaseBase old = base_of("old"), fresh = base_of("new");
   old.retain(field_case(2.0));
   Case labelled = field_case(7.0);
@@ -90,7 +90,7 @@ TEST(CarryOver, TheSameFaultOfTheSameLabelledLogHasItsFeaturesAnewAndIsThereOnce
   EXPECT_EQ(fresh.cases().back().features_by, "");
 }
 
-TEST(CarryOver, ACaseOfALabelledLogThatIsNotGivenAgainStays) {
+TEST(CarryOver, ACaseOfALabelledLogThatIsNotGivenAgainIsCarriedOver) {
   CaseBase old = base_of("old"), fresh = base_of("new");
   Case labelled = field_case(7.0);
   labelled.origin = kLabelledOrigin;
@@ -103,7 +103,7 @@ TEST(CarryOver, ACaseOfALabelledLogThatIsNotGivenAgainStays) {
   EXPECT_EQ(again.cases().size(), 4u);
 }
 
-TEST(CarryOver, ManyTimesIsAsOnce) {
+TEST(CarryOver, RepeatedCarryOverKeepsTheCasesAndTheirFirstModel) {
   CaseBase old = base_of("first");
   old.retain(field_case(2.0));
   for (const char* model : {"second", "third"}) {

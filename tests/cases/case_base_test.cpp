@@ -32,7 +32,7 @@ TEST(CaseBase, RefusesOtherOrInfiniteFeatures) {
   EXPECT_EQ(base.cases().size(), 1u);
 }
 
-TEST(CaseBase, RefusesFeatureNamesThatAreEmptyOrTwice) {
+TEST(CaseBase, RefusesEmptyAndRepeatedFeatureNames) {
   EXPECT_THROW(CaseBase({"a", "a"}), Error);
   EXPECT_THROW(CaseBase({""}), Error);
 }
@@ -63,7 +63,7 @@ TEST(CaseBase, ConfirmAndRejectReviseOneCase) {
   EXPECT_EQ(base.at(4).label, kFree) << "confirming without a label confirms the decision";
 }
 
-TEST(CaseBase, TextsBecomeUtf8) {
+TEST(CaseBase, InvalidBytesInTextsAreReplaced) {
   CaseBase base({"a", "b", "noise"});
   Random random(1);
   Case c = example_case(random, kFree, 0, 0);
@@ -72,7 +72,7 @@ TEST(CaseBase, TextsBecomeUtf8) {
   EXPECT_EQ(base.at(1).origin, "run\xef\xbf\xbd.csv");
 }
 
-TEST(CaseBase, ContentHashSeesEveryField) {
+TEST(CaseBase, ContentHashDependsOnEveryField) {
   const CaseBase base = example_base(2);
   EXPECT_EQ(base.sha256(), example_base(2).sha256());
   const auto differs = [&](auto change) {
@@ -106,7 +106,7 @@ TEST(CaseBase, ContentHashSeesEveryField) {
   EXPECT_NE(CaseBase(metric, base.cases()).sha256(), base.sha256());
 }
 
-TEST(CaseBase, MergeAddsOnlyWhatIsNew) {
+TEST(CaseBase, MergeAddsOnlyNewCases) {
   CaseBase base = example_base(2), other = example_base(3), of_others({"a", "b"});
   for (CaseBase* each : {&base, &other, &of_others}) each->describe_robot({"bench", "RRP"});
   EXPECT_EQ(base.merge(other).added, 3);
@@ -153,7 +153,7 @@ CaseBase base_of(const std::string& robot, const std::string& axes = "RRP") {
   return base;
 }
 
-TEST(SameEvent, IsTheSameLogOnsetAndName) {
+TEST(SameEvent, HasTheSameLogOnsetAndName) {
   const Case c = seen_case();
   EXPECT_TRUE(is_same_event(c, seen_case(12.55))) << "another model estimates the onset anew";
   EXPECT_FALSE(is_same_event(c, seen_case(13.0)));
@@ -182,13 +182,13 @@ TEST(MergeCases, AnotherKindOfRobotIsRefused) {
   }
 }
 
-TEST(MergeCases, AJointThatTheRobotHasNotIsRefused) {
+TEST(MergeCases, AJointThatTheRobotLacksIsRefused) {
   CaseBase base = base_of("bench", "RRP"), other = base_of("bench 7", "RRP");
   other.reject(1, FaultLabel{FaultKind::locked, 7_joint});
   EXPECT_THROW(base.merge(other), Error);
 }
 
-TEST(MergeCases, TwiceAddsNothing) {
+TEST(MergeCases, ASecondMergeOfTheSameBaseAddsNothing) {
   CaseBase base = base_of("bench"), other = base_of("bench 7");
   other.retain(seen_case());
   EXPECT_EQ(base.merge(other).added, 7);
@@ -200,7 +200,7 @@ TEST(MergeCases, TwiceAddsNothing) {
   EXPECT_EQ(base.sha256(), before);
 }
 
-TEST(MergeCases, ThereAndBackAddsNothing) {
+TEST(MergeCases, MergingBackAMergedBaseAddsNothing) {
   CaseBase base = base_of("bench"), other = base_of("bench 7");
   base.retain(seen_case());
   Case by_hand = seen_case();
@@ -215,7 +215,7 @@ TEST(MergeCases, ThereAndBackAddsNothing) {
   EXPECT_EQ(base.cases().size(), before);
 }
 
-TEST(MergeCases, WhatSomebodySaidSinceIsTaken) {
+TEST(MergeCases, ALaterDecisionReplacesAnEarlierOne) {
   CaseBase base = base_of("bench"), other = base_of("bench 7");
   const auto id = base.retain(seen_case());
   other.confirm(other.retain(seen_case()), kBias, "new encoder", {"A. Weber", "2026-03-02"});

@@ -57,7 +57,7 @@ class CaseFile : public testing::Test {
   std::string path_ = folder_.file("robot.cases.db");
 };
 
-TEST_F(CaseFile, LiesBesideItsModelUnlessSaidOtherwise) {
+TEST_F(CaseFile, LiesBesideItsModelByDefault) {
   EXPECT_EQ(case_base_path("runs/robot.json"), "runs/robot.json.cases.db");
 }
 
@@ -85,7 +85,7 @@ TEST_F(CaseFile, ExportAndImportLoseNothing) {
   EXPECT_EQ(to_cases_json(read), text);
 }
 
-TEST_F(CaseFile, AnExportWithANameThatIsNoNameOfALogIsRefused) {
+TEST_F(CaseFile, AnExportWithAnInvalidNameOfALogIsRefused) {
   CaseBase base = example_base(2);
   Case c = base.at(1);
   c.origin = "runs/night\n2.csv";
@@ -112,7 +112,7 @@ TEST_F(CaseFile, AnExportWithANameThatIsNoNameOfALogIsRefused) {
 }
 
 /// Somebody confirms one case over and over.
-TEST_F(CaseFile, ReadersSeeOneMomentWhileAnotherProgramWrites) {
+TEST_F(CaseFile, ReadersSeeAConsistentStateWhileAnotherProgramWrites) {
   constexpr int kReads = 40;
   write_case_base(path_, example_base(50));
   std::atomic<bool> stop = false;
@@ -135,12 +135,12 @@ TEST_F(CaseFile, ReadersSeeOneMomentWhileAnotherProgramWrites) {
   EXPECT_EQ(failure, "") << "of read " << read << " beside write " << writes;
 }
 
-TEST_F(CaseFile, AnEmptyBaseIsABase) {
+TEST_F(CaseFile, AnEmptyCaseBaseIsWrittenAndRead) {
   write_case_base(path_, CaseBase({"a"}));
   EXPECT_TRUE(read_case_base(path_).cases().empty());
 }
 
-TEST_F(CaseFile, IsOneFile) {
+TEST_F(CaseFile, IsASingleFileAlsoAfterAChange) {
   write_case_base(path_, example_base());
   change_case_base(path_, [](CaseBase& base) { base.confirm(1); });
   int files = 0;
@@ -158,13 +158,13 @@ TEST_F(CaseFile, ReadingChangesNothing) {
   EXPECT_EQ(std::filesystem::last_write_time(path_), time);
 }
 
-TEST_F(CaseFile, SameBaseSameBytes) {
+TEST_F(CaseFile, TheSameCaseBaseGivesTheSameBytes) {
   write_case_base(path_, example_base());
   write_case_base(folder_.file("again.db"), example_base());
   EXPECT_EQ(read_file(path_), read_file(folder_.file("again.db")));
 }
 
-TEST_F(CaseFile, ChangesAreKept) {
+TEST_F(CaseFile, ChangesAreStored) {
   write_case_base(path_, example_base());
   change_case_base(path_, [](CaseBase& base) { base.confirm(2, kBias, "changed the encoder"); });
   EXPECT_EQ(read_case_base(path_).at(2).label, kBias);
@@ -182,7 +182,7 @@ TEST_F(CaseFile, AChangeThatFailsChangesNothing) {
   EXPECT_EQ(read_file(path_), before);
 }
 
-TEST_F(CaseFile, ThatIsAHardLinkIsNotChangedUnderItsOtherName) {
+TEST_F(CaseFile, AHardLinkIsNotChanged) {
   write_case_base(path_, example_base(2));
   std::filesystem::create_hard_link(path_, folder_.file("other.cases.db"));
   const std::string before = read_file(path_);
@@ -192,23 +192,25 @@ TEST_F(CaseFile, ThatIsAHardLinkIsNotChangedUnderItsOtherName) {
   EXPECT_EQ(read_file(folder_.file("other.cases.db")), before);
 }
 
-TEST_F(CaseFile, MissingFile) { EXPECT_NE(refusal(path_).find("does not exist"), std::string::npos); }
+TEST_F(CaseFile, AMissingFileIsRefused) {
+  EXPECT_NE(refusal(path_).find("does not exist"), std::string::npos);
+}
 
-TEST_F(CaseFile, Directory) {
+TEST_F(CaseFile, AFolderIsRefused) {
   EXPECT_NE(refusal(folder_.path().string()).find("directory"), std::string::npos);
 }
 
-TEST_F(CaseFile, EmptyFile) {
+TEST_F(CaseFile, AnEmptyFileIsRefused) {
   write_file(path_, "");
   EXPECT_NE(refusal(path_).find("is empty"), std::string::npos);
 }
 
-TEST_F(CaseFile, TextFile) {
+TEST_F(CaseFile, ATextFileIsRefused) {
   write_file(path_, std::string(5000, 'x'));
   EXPECT_NE(refusal(path_).find("not an SQLite file"), std::string::npos) << refusal(path_);
 }
 
-TEST_F(CaseFile, TruncatedAnywhere) {
+TEST_F(CaseFile, AFileTruncatedAnywhereIsRefused) {
   write_case_base(path_, example_base(50));
   const std::string whole = read_file(path_);
   ASSERT_GT(whole.size(), 20000u);
@@ -218,7 +220,7 @@ TEST_F(CaseFile, TruncatedAnywhere) {
   }
 }
 
-TEST_F(CaseFile, OverwrittenInside) {
+TEST_F(CaseFile, AFileOverwrittenInsideIsRefused) {
   write_case_base(path_, example_base(50));
   std::string bytes = read_file(path_);
   for (std::size_t i = 4096; i < bytes.size(); i += 7) bytes[i] = '\x5a';
@@ -226,7 +228,7 @@ TEST_F(CaseFile, OverwrittenInside) {
   EXPECT_NE(refusal(path_).find("damaged"), std::string::npos) << refusal(path_);
 }
 
-TEST_F(CaseFile, FlippedBitsAreReadOrRefusedButNeverACrash) {
+TEST_F(CaseFile, AFileWithFlippedBitsIsReadOrRefusedWithoutACrash) {
   write_case_base(path_, example_base(5));
   const std::string whole = read_file(path_);
   Random random(11);
@@ -245,24 +247,24 @@ TEST_F(CaseFile, FlippedBitsAreReadOrRefusedButNeverACrash) {
   EXPECT_GT(refused, 20);
 }
 
-TEST_F(CaseFile, NewerSchema) {
+TEST_F(CaseFile, ANewerSchemaIsRefused) {
   write_case_base(path_, example_base());
   SqliteFile(path_, SqliteMode::change).run("PRAGMA user_version = 4");
   EXPECT_NE(refusal(path_).find("newer faultline"), std::string::npos) << refusal(path_);
 }
 
-TEST_F(CaseFile, SqliteFileOfAnotherProgram) {
+TEST_F(CaseFile, AnSqliteFileOfAnotherProgramIsRefused) {
   SqliteFile(path_, SqliteMode::create).run("CREATE TABLE t(x)");
   EXPECT_NE(refusal(path_).find("another program"), std::string::npos) << refusal(path_);
 }
 
-TEST_F(CaseFile, LostRows) {
+TEST_F(CaseFile, AFileWithLostRowsIsRefused) {
   write_case_base(path_, example_base());
   SqliteFile(path_, SqliteMode::change).run("DELETE FROM fault_case WHERE id = 5");
   EXPECT_NE(refusal(path_).find("does not match its digest"), std::string::npos) << refusal(path_);
 }
 
-TEST_F(CaseFile, AFolderThatIsMissingLeavesNothing) {
+TEST_F(CaseFile, AMissingFolderIsAFileErrorAndNothingIsWritten) {
   try {
     write_case_base(folder_.file("no/such/robot.cases.db"), example_base());
     FAIL();
@@ -272,7 +274,7 @@ TEST_F(CaseFile, AFolderThatIsMissingLeavesNothing) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
-TEST_F(CaseFile, ImportsThatAreNone) {
+TEST_F(CaseFile, InvalidImportsAreRefused) {
   EXPECT_THROW(from_cases_json("", "x"), Error);
   EXPECT_THROW(from_cases_json("{\"schema\": \"other/1\"}", "x"), Error);
   EXPECT_THROW(from_cases_json("{\"schema\": \"faultline/cases/1\"}", "x"), Error);
@@ -281,7 +283,7 @@ TEST_F(CaseFile, ImportsThatAreNone) {
   EXPECT_THROW(from_cases_json(text, "x"), Error);
 }
 
-TEST_F(CaseFile, AnExportWithoutRobotOrIdentityIsRefusedWithACure) {
+TEST_F(CaseFile, AnExportWithoutRobotOrIdentityIsRefusedWithAdvice) {
   for (const char* member : {"model_identity", "robot", "axes"}) {
     nlohmann::ordered_json json = nlohmann::ordered_json::parse(to_cases_json(example_base(1)));
     json.erase(member);
@@ -296,7 +298,7 @@ TEST_F(CaseFile, AnExportWithoutRobotOrIdentityIsRefusedWithACure) {
   }
 }
 
-TEST_F(CaseFile, ANumberThatIsNoneInAnImportIsNamedWithItsPlace) {
+TEST_F(CaseFile, AnInvalidNumberInAnImportIsNamedWithItsPlace) {
   const auto problem = [](const std::string& text) -> std::string {
     try {
       from_cases_json(text, "cases.json");

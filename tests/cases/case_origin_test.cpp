@@ -19,13 +19,13 @@ Case field_case() {
   return c;
 }
 
-TEST(CaseOrigin, AFieldCaseTellsWhoWhenAndWhere) {
+TEST(CaseOrigin, AFieldCaseNamesPersonDateRobotAndLog) {
   EXPECT_EQ(origin_of(field_case()), CaseOrigin::field);
   EXPECT_EQ(origin_words(field_case()),
             "confirmed in the field by A. Weber on 2026-03-02, robot bench 7, log night.csv");
 }
 
-TEST(CaseOrigin, WhatIsNotKnownIsSaidToBeSo) {
+TEST(CaseOrigin, MissingFactsAreNamedAsNotRecorded) {
   Case c = field_case();
   c.person = c.date = c.robot = "";
   c.origin = kByHandOrigin;
@@ -33,7 +33,7 @@ TEST(CaseOrigin, WhatIsNotKnownIsSaidToBeSo) {
             "confirmed in the field, author and date not recorded, recorded by hand without a log");
 }
 
-TEST(CaseOrigin, AnotherNameThanWasDecidedIsTold) {
+TEST(CaseOrigin, ACorrectedNameIsShownWithTheEarlierName) {
   Case c = field_case();
   c.label = kBias;
   EXPECT_NE(origin_words(c).find("on 2026-03-02 (was called: joint 2 is locked)"), std::string::npos);
@@ -45,14 +45,14 @@ TEST(CaseOrigin, AnotherNameThanWasDecidedIsTold) {
   EXPECT_EQ(origin_words(c).rfind("rejected in the field by A. Weber", 0), 0u);
 }
 
-TEST(CaseOrigin, ADiagnosisThatNobodyConfirmedIsNoFieldCase) {
+TEST(CaseOrigin, AnUnconfirmedDiagnosisIsNotAFieldCase) {
   Case c = field_case();
   c.outcome = CaseOutcome::unconfirmed;
   EXPECT_EQ(origin_of(c), CaseOrigin::diagnosed);
   EXPECT_EQ(origin_words(c).rfind("diagnosed, not confirmed", 0), 0u);
 }
 
-TEST(CaseOrigin, LabelledLogsAndSimulatedCasesSaySo) {
+TEST(CaseOrigin, LabelledAndSimulatedCasesNameTheirOrigin) {
   Case c;
   c.outcome = CaseOutcome::confirmed;
   c.origin = kSimulatedOrigin;
@@ -67,7 +67,7 @@ TEST(CaseOrigin, LabelledLogsAndSimulatedCasesSaySo) {
   EXPECT_EQ(origin_words(c, "bench"), "labelled log locked_1.csv");
 }
 
-TEST(CaseOrigin, FeaturesOfAnotherModelAreTold) {
+TEST(CaseOrigin, FeaturesOfAnotherModelAreMentioned) {
   Case c = field_case();
   c.features_by = "another";
   EXPECT_NE(origin_words(c).find("compared by features of another model"), std::string::npos);

@@ -26,7 +26,7 @@ std::vector<std::size_t> places(const std::vector<FeatureMatch>& matches) {
   return out;
 }
 
-TEST(CompareCases, WhatBothHaveUnlikeTheOthersComesFirst) {
+TEST(CompareCases, SharedUnusualFeaturesComeFirst) {
   const std::vector<UsualFeature> usual = {{0, 1}, {0, 1}, {0, 1}, {3, 20}};
   const std::vector<double> a = {0.1, 4.0, 1.0, 0.0}, b = {0.1, 4.1, 1.0, 0.0};
   const Likeness found = compare_cases(metric_of({1, 1, 1, 1}), usual, a, b);
@@ -35,7 +35,7 @@ TEST(CompareCases, WhatBothHaveUnlikeTheOthersComesFirst) {
   EXPECT_TRUE(found.unlike.empty());
 }
 
-TEST(CompareCases, WhatDiffersByMoreThanAScaleComesByItsShareOfTheDistance) {
+TEST(CompareCases, DifferingFeaturesAreOrderedByTheirShareOfTheDistance) {
   const std::vector<UsualFeature> usual = {{0, 1}, {0, 1}, {0, 1}};
   const std::vector<double> a = {0, 0, 0}, b = {1.0, 2.0, 2.0};
   const Likeness found = compare_cases(metric_of({1, 0.5, 0.9}), usual, a, b);
@@ -43,7 +43,7 @@ TEST(CompareCases, WhatDiffersByMoreThanAScaleComesByItsShareOfTheDistance) {
   EXPECT_NEAR(found.unlike[0].difference, 4.0, 1e-12);
 }
 
-TEST(CompareCases, WhatTellsNothingIsLeftOut) {
+TEST(CompareCases, FeaturesOfLittleWeightOrWithoutValueAreLeftOut) {
   const std::vector<UsualFeature> usual = {{0, 1}, {0, 1}, {0, 1}, {0, 1}};
   const std::vector<double> a = {5, 5, kMissing, -1.0}, b = {5, 9, 5, 1.0};
   const Likeness found = compare_cases(metric_of({0.05, 0.05, 1, 1}), usual, a, b);
@@ -51,7 +51,7 @@ TEST(CompareCases, WhatTellsNothingIsLeftOut) {
   EXPECT_EQ(places(found.unlike), (std::vector<std::size_t>{3}));
 }
 
-TEST(CompareCases, UsualIsMeanAndSpreadOfWhatIsMeasured) {
+TEST(CompareCases, UsualFeaturesHaveMeanAndSpreadOfTheMeasuredValues) {
   CaseBase base({"a", "b"});
   for (const double x : {1.0, 3.0}) {
     Case c;

@@ -43,7 +43,7 @@ class HostileCaseFile : public testing::Test {
   std::string path_ = folder_.file("robot.cases.db");
 };
 
-TEST_F(HostileCaseFile, AFlippedBitIsRefusedOrChangesNothingThatIsRead) {
+TEST_F(HostileCaseFile, AFlippedBitIsRefusedOrChangesNoContent) {
   CaseBase base = example_base(5);
   base.belong_to("0123456789abcdef");
   write_case_base(path_, base);
@@ -70,12 +70,12 @@ TEST_F(HostileCaseFile, AChangedNumberIsRefused) {
   EXPECT_NE(refusal().find("does not match its digest"), std::string::npos) << refusal();
 }
 
-TEST_F(HostileCaseFile, AForeignModelIsRefused) {
+TEST_F(HostileCaseFile, AChangedModelIdentityIsRefused) {
   run("UPDATE identity SET model = 'another'");
   EXPECT_NE(refusal().find("does not match its digest"), std::string::npos) << refusal();
 }
 
-TEST_F(HostileCaseFile, AViewThatNeverEndsIsRefusedAtOnce) {
+TEST_F(HostileCaseFile, AnEndlessViewIsRefusedAtOnce) {
   run("ALTER TABLE fault_case RENAME TO gone; CREATE VIEW fault_case AS WITH RECURSIVE n(id) AS (SELECT 1 "
       "UNION ALL SELECT id + 1 FROM n) SELECT id FROM n");
   EXPECT_NE(refusal().find("the view \"fault_case\""), std::string::npos) << refusal();
@@ -91,19 +91,19 @@ TEST_F(HostileCaseFile, ATriggerIsRefusedAndDoesNotRun) {
   EXPECT_LT(file.number("SELECT count(*) FROM fault_case WHERE kind = 'locked'"), 15);
 }
 
-TEST_F(HostileCaseFile, AStatementThatNeverEndsIsEnded) {
+TEST_F(HostileCaseFile, AnEndlessStatementIsStopped) {
   SqliteFile file(path_, SqliteMode::read_only);
   EXPECT_THROW(
       file.number("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT max(i) FROM n"),
       Error);
 }
 
-TEST_F(HostileCaseFile, ADeviceIsNoCaseBase) {
+TEST_F(HostileCaseFile, ADeviceIsNotACaseBase) {
   EXPECT_THROW(read_case_base("/dev/zero"), Error);
   EXPECT_THROW(write_case_base("/dev/null", example_base(1)), Error);
 }
 
-TEST_F(HostileCaseFile, ABaseOfAnEarlierVersionIsRefusedWithACureAndStays) {
+TEST_F(HostileCaseFile, ACaseBaseOfAnEarlierVersionIsRefusedWithAdviceAndKept) {
   for (const char* version : {"1", "2"}) {
     run(std::string("PRAGMA user_version = ") + version);
     const std::string before = read_file(path_);
@@ -121,19 +121,19 @@ TEST_F(HostileCaseFile, AChangedPersonIsRefused) {
   EXPECT_NE(refusal().find("does not match its digest"), std::string::npos) << refusal();
 }
 
-TEST_F(HostileCaseFile, LostRowsUnderAFittingDigest) {
+TEST_F(HostileCaseFile, LostRowsAreRefusedDespiteAFittingDigest) {
   run("DELETE FROM fault_case WHERE id = 5");
   reseal();
   EXPECT_NE(refusal().find("incomplete"), std::string::npos) << refusal();
 }
 
-TEST_F(HostileCaseFile, ForeignWordsUnderAFittingDigest) {
+TEST_F(HostileCaseFile, UnknownWordsAreRefusedDespiteAFittingDigest) {
   run("UPDATE fault_case SET kind = 'rust' WHERE id = 5");
   reseal();
   EXPECT_NE(refusal().find("rust"), std::string::npos) << refusal();
 }
 
-TEST_F(HostileCaseFile, WildNumbersUnderAFittingDigest) {
+TEST_F(HostileCaseFile, ImpossibleNumbersAreRefusedDespiteAFittingDigest) {
   for (const char* change :
        {"UPDATE fault_case SET evidence = 1e308 WHERE id = 5", "UPDATE feature SET scale = 1e308",
         "UPDATE fault_case SET joint = 99 WHERE id = 5", "UPDATE fault_case SET mlp_confidence = -1",

@@ -59,12 +59,12 @@ TEST_F(InterruptedChange, LeavesAHotJournal) {
   EXPECT_FALSE(journal_.empty());
 }
 
-TEST_F(InterruptedChange, ReadersReadWhatWasThereBeforeAndTouchNothing) {
+TEST_F(InterruptedChange, ReadersReadTheStateBeforeItAndChangeNoFile) {
   EXPECT_EQ(read_case_base(path_).sha256(), base_.sha256());
   expect_files_untouched();
 }
 
-TEST_F(InterruptedChange, WhoMayOnlyReadReadsToo) {
+TEST_F(InterruptedChange, AReaderWithoutWritePermissionReadsTheStateBeforeIt) {
   const auto read_only = fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read;
   const auto look_only = read_only | fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec;
   fs::permissions(path_, read_only);
@@ -91,7 +91,7 @@ TEST_F(InterruptedChange, IsRolledBackByTheNextChange) {
   EXPECT_FALSE(fs::exists(path_ + "-journal"));
 }
 
-TEST_F(InterruptedChange, DoesNotComeBackIntoABaseThatWasReplaced) {
+TEST_F(InterruptedChange, DoesNotReturnIntoAReplacedCaseBase) {
   const CaseBase other = example_base(3);
   write_case_base(path_, other);
   EXPECT_EQ(read_case_base(path_).sha256(), other.sha256());
@@ -99,7 +99,7 @@ TEST_F(InterruptedChange, DoesNotComeBackIntoABaseThatWasReplaced) {
   EXPECT_EQ(read_case_base(path_).sha256(), other.sha256());
 }
 
-TEST_F(InterruptedChange, DoesNotComeBackIntoANewBaseOfTheSameName) {
+TEST_F(InterruptedChange, DoesNotReturnIntoANewCaseBaseOfTheSameName) {
   fs::remove(path_);
   const CaseBase other = example_base(3);
   write_case_base(path_, other);
@@ -108,7 +108,7 @@ TEST_F(InterruptedChange, DoesNotComeBackIntoANewBaseOfTheSameName) {
   EXPECT_EQ(read_case_base(path_).sha256(), other.sha256());
 }
 
-TEST_F(InterruptedChange, WhatReplacesSeesWhatWasThereBefore) {
+TEST_F(InterruptedChange, ReplaceReceivesTheStateBeforeIt) {
   std::string seen;
   replace_case_base(path_, [&](const CaseBase* there) {
     seen = there->sha256();

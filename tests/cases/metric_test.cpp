@@ -17,7 +17,7 @@ Metric two_features(double weight_a, double weight_b) {
   return {.features = {{"a", 1.0, weight_a}, {"b", 2.0, weight_b}}, .near_similarity = 0.3};
 }
 
-TEST(Metric, SimilarityIsOneForTwinsAndHalfAtOneScale) {
+TEST(Metric, SimilarityIsOneForEqualCasesAndHalfAtOneScale) {
   const Metric metric = two_features(1.0, 1.0);
   const std::vector<double> a = {1.0, 2.0}, one_scale_away = {2.0, 4.0};
   EXPECT_DOUBLE_EQ(similarity(metric, a, a), 1.0);
@@ -31,7 +31,7 @@ TEST(Metric, AFeatureWithoutWeightDoesNotCount) {
   EXPECT_LT(similarity(two_features(1.0, 1.0), a, b), 0.2);
 }
 
-TEST(Metric, OneWildNumberIsCapped) {
+TEST(Metric, TheDifferenceOfAFeatureIsCapped) {
   const std::vector<double> a = {1.0, 2.0}, wild = {1.0, 1e200};
   EXPECT_DOUBLE_EQ(similarity(two_features(1.0, 1.0), a, wild),
                    1.0 / (1.0 + kLargestDifference / std::sqrt(2.0)));
@@ -44,12 +44,12 @@ TEST(Metric, MissingFeaturesAreLeftOutUntilLessThanHalfTheWeightIsLeft) {
   EXPECT_DOUBLE_EQ(similarity(two_features(1.0, 1.0), nothing, nothing), 0.0);
 }
 
-TEST(Metric, OtherLengthsAreNotAlike) {
+TEST(Metric, FeaturesOfDifferentLengthHaveNoSimilarity) {
   const std::vector<double> a = {1.0, 2.0}, shorter = {1.0};
   EXPECT_DOUBLE_EQ(similarity(two_features(1.0, 1.0), a, shorter), 0.0);
 }
 
-TEST(Metric, LearnsWhatTellsFaultsApart) {
+TEST(Metric, GivesWeightToFeaturesThatDistinguishFaults) {
   const Metric metric = example_base(30).metric();
   EXPECT_GT(metric.features[0].weight, 0.95);
   EXPECT_GT(metric.features[1].weight, 0.95);

@@ -26,7 +26,7 @@ CaseBase base_of_bank() {
   return base;
 }
 
-TEST(PossibleLabels, JointsAreKnownByTheAxes) {
+TEST(PossibleLabels, TheNumberOfJointsFollowsFromTheAxes) {
   EXPECT_EQ(joints_of(base_of_bank()), 2);
   CaseBase base({"a"});
   base.describe_robot({"bench", "RRPR"});
@@ -40,12 +40,12 @@ TEST(PossibleLabels, AModelWithoutHypothesesExcludesNoFaultOfAJointThatIsThere) 
   EXPECT_NE(refusal(base, {FaultKind::locked, 2_joint}).find("has 1 joint"), std::string::npos);
 }
 
-TEST(PossibleLabels, AJointThatTheRobotHasNotIsRefused) {
+TEST(PossibleLabels, AJointThatTheRobotLacksIsRefused) {
   EXPECT_EQ(refusal(base_of_bank(), {FaultKind::locked, 2_joint}), "");
   EXPECT_NE(refusal(base_of_bank(), {FaultKind::locked, 3_joint}).find("has 2 joints"), std::string::npos);
 }
 
-TEST(PossibleLabels, AJointIsToldWhereTheFaultHasOne) {
+TEST(PossibleLabels, AJointIsRequiredOnlyIfTheFaultHasOne) {
   EXPECT_NE(refusal(base_of_bank(), {FaultKind::locked, Joint()}).find("give its number"), std::string::npos);
   EXPECT_NE(refusal(base_of_bank(), {FaultKind::none, 1_joint}).find("no joint"), std::string::npos);
   EXPECT_EQ(refusal(base_of_bank(), {FaultKind::payload_change, 2_joint}), "");
@@ -57,7 +57,7 @@ TEST(PossibleLabels, AJointIsToldWhereTheFaultHasOne) {
   EXPECT_EQ(with_tip({FaultKind::locked, Joint()}, 2).joint, Joint());
 }
 
-TEST(PossibleLabels, AKindThatNothingLooksForIsRefusedUnlessALogShowedIt) {
+TEST(PossibleLabels, AKindWithoutHypothesisIsRefusedUnlessACaseHasIt) {
   CaseBase base = base_of_bank();
   const FaultLabel label{FaultKind::torque_sensor_error, 1_joint};
   EXPECT_NE(refusal(base, label).find("torque_sensor_error 1"), std::string::npos);

@@ -27,7 +27,7 @@ TEST(Retrieve, EqualSimilarityIsOrderedById) {
   for (int i = 0; i < 4; ++i) EXPECT_EQ(found[i].found->id, i + 1);
 }
 
-TEST(Retrieve, AsManyAsThereAre) {
+TEST(Retrieve, ReturnsAtMostTheExistingCases) {
   const CaseBase base = example_base(1);
   const std::vector<double> origin = {0, 0, 0};
   EXPECT_EQ(retrieve(base, origin, 10).size(), 3u);

@@ -7,7 +7,7 @@
 namespace faultline {
 namespace {
 
-class FeatureReadingOf : public testing::Test {
+class DescribedFeatures : public testing::Test {
  protected:
   DescribedFeature read(const std::string& name) const {
     for (std::size_t i = 0; i < list_.size(); ++i)
@@ -26,14 +26,14 @@ class FeatureReadingOf : public testing::Test {
   }();
 };
 
-TEST_F(FeatureReadingOf, NatsBehindTheBest) {
+TEST_F(DescribedFeatures, EvidenceBehindTheBestLabelIsInNats) {
   EXPECT_NEAR(read("behind torque_loss 1").value, 12.0, 1e-9);
   EXPECT_EQ(read("behind sensor_bias 3").value, 0.0);
   EXPECT_EQ(read("behind torque_loss 1").unit, "nats");
   EXPECT_NE(read("behind torque_loss 1").what.find("joint 1 lost a part of its torque"), std::string::npos);
 }
 
-TEST_F(FeatureReadingOf, SizesInTheirUnits) {
+TEST_F(DescribedFeatures, SizesHaveTheirUnits) {
   EXPECT_NEAR(read("size sensor_bias 3").value, 0.02, 1e-9);
   EXPECT_EQ(read("size sensor_bias 3").unit, "m") << "joint 3 slides";
   EXPECT_NEAR(read("size torque_loss 1").value, 40.0, 1e-6);
@@ -41,7 +41,7 @@ TEST_F(FeatureReadingOf, SizesInTheirUnits) {
   EXPECT_TRUE(std::isnan(read("size sensor_bias 1").value)) << "too far behind to tell";
 }
 
-TEST_F(FeatureReadingOf, StrengthTimeAndResiduals) {
+TEST_F(DescribedFeatures, StrengthDurationAndResidualsHaveTheirValues) {
   EXPECT_NEAR(read("strength").value, 100.0, 1e-9);
   EXPECT_NEAR(read("duration").value, 2.0, 1e-9);
   EXPECT_NEAR(read("mlp residual 3").value, 20.0, 1e-9);

@@ -51,7 +51,7 @@ nlohmann::json json_of(const EpisodeClassifier& classifier) {
   return json;
 }
 
-TEST(EpisodeClassifier, NamesFaultsItHasNotSeen) {
+TEST(EpisodeClassifier, ClassifiesHeldOutEpisodes) {
   int mlp = 0, rbfn = 0;
   const auto fresh = draw_episodes(50, 2);
   for (const LabelledEpisode& episode : fresh) {
@@ -63,7 +63,7 @@ TEST(EpisodeClassifier, NamesFaultsItHasNotSeen) {
   EXPECT_GE(rbfn, 147);
 }
 
-TEST(EpisodeClassifier, IsSurerInTheMiddleOfAFaultThanBetweenTwo) {
+TEST(EpisodeClassifier, IsMoreConfidentInTheMiddleOfAFaultThanBetweenTwo) {
   const Opinions middle = classify_episode(trained(), {0.0, 0.0, 0.0}),
                  between = classify_episode(trained(), {1.5, 0.0, 0.0});
   EXPECT_GT(middle.mlp.confidence, 0.9);
@@ -72,7 +72,7 @@ TEST(EpisodeClassifier, IsSurerInTheMiddleOfAFaultThanBetweenTwo) {
   EXPECT_LT(between.rbfn.confidence, middle.rbfn.confidence);
 }
 
-TEST(EpisodeClassifier, ConfidenceIsAShare) {
+TEST(EpisodeClassifier, ConfidenceLiesBetweenZeroAndOne) {
   for (const auto& features : probes()) {
     const Opinions opinions = classify_episode(trained(), features);
     for (const Opinion& opinion : {opinions.mlp, opinions.rbfn}) {
@@ -89,7 +89,7 @@ TEST(EpisodeClassifier, LabelsAreSortedWhateverTheOrderOfTheEpisodes) {
   EXPECT_FALSE(EpisodeClassifier{}.trained());
 }
 
-TEST(EpisodeClassifier, EachFeatureHasItsPlace) {
+TEST(EpisodeClassifier, TheOrderOfTheFeaturesMatters) {
   const std::vector<double> second = {3.0, 0.0, 0.0}, moved = {0.0, 0.0, 3.0};
   const Opinions there = classify_episode(trained(), second), elsewhere = classify_episode(trained(), moved);
   EXPECT_EQ(there.mlp.label, kLabels[1]);
@@ -98,7 +98,7 @@ TEST(EpisodeClassifier, EachFeatureHasItsPlace) {
   EXPECT_EQ(elsewhere.rbfn.label, kLabels[0]);
 }
 
-TEST(EpisodeClassifier, JsonBringsBackTheSameOpinionsBitForBit) {
+TEST(EpisodeClassifier, JsonKeepsEveryBitOfTheOpinions) {
   const std::string text = json_of(trained()).dump();
   const EpisodeClassifier read = episode_classifier_from_json(nlohmann::json::parse(text), "model.json");
   EXPECT_EQ(read.labels, trained().labels);
@@ -154,7 +154,7 @@ TEST(EpisodeClassifierJson, NetworksThatDoNotFitTheFeaturesAreRefused) {
   EXPECT_THROW(episode_classifier_from_json(json_of(classifier), "model.json"), Error);
 }
 
-TEST(EpisodeClassifierJson, AFaultNobodyKnowsIsRefused) {
+TEST(EpisodeClassifierJson, AnUnknownFaultIsRefused) {
   nlohmann::json json = json_of(trained());
   json["labels"][0][0] = "haunted";
   EXPECT_THROW(episode_classifier_from_json(json, "model.json"), Error);

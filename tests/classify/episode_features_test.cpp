@@ -77,7 +77,7 @@ TEST(EvidenceByLabel, SizesAreInUnitsOfTheirScale) {
   EXPECT_NEAR(example.entry(friction).size[1], 0.5, 1e-12) << "what it has grown to in half a second";
 }
 
-TEST(EpisodeFeatures, HaveANameEach) {
+TEST(EpisodeFeatures, HaveOneUniqueNameEach) {
   const Example example;
   const std::vector<double> rms(3, 1.0);
   const auto names = episode_feature_names(example.labels, 3);
@@ -87,7 +87,7 @@ TEST(EpisodeFeatures, HaveANameEach) {
       << "behind and size of two kinds at three joints";
 }
 
-TEST(EpisodeFeatures, SayHowFarEachLabelIsBehind) {
+TEST(EpisodeFeatures, HoldTheEvidenceOfEachLabelBehindTheBest) {
   Example example;
   const std::vector<double> rms = {1.0, std::exp(2.0), kNaN};
   example.of({FaultKind::locked, 1_joint}, 60.0);
@@ -101,7 +101,7 @@ TEST(EpisodeFeatures, SayHowFarEachLabelIsBehind) {
   EXPECT_EQ(feature(example, "mlp residual 3", rms), 0.0) << "not a number counts as healthy";
 }
 
-TEST(EpisodeFeatures, SizesFadeWithTheLabelsEvidence) {
+TEST(EpisodeFeatures, SizesShrinkWithTheEvidenceOfTheirLabel) {
   Example example;
   const std::vector<double> rms(3, 1.0);
   example.of({FaultKind::friction_increase, 1_joint}, 60.0, {2.0, 1.5});
@@ -111,7 +111,7 @@ TEST(EpisodeFeatures, SizesFadeWithTheLabelsEvidence) {
   EXPECT_NEAR(feature(example, "size sensor_bias 1", rms), std::exp(-1.0) * std::tanh(1.0), 1e-12);
 }
 
-TEST(EpisodeFeatures, StayFiniteWhateverTheEvidence) {
+TEST(EpisodeFeatures, StayFiniteForAnyEvidence) {
   Example example;
   example.of({FaultKind::sensor_bias, 1_joint}, 1e5, {1e9});
   example.of({FaultKind::sensor_bias, 2_joint}, -std::numeric_limits<double>::infinity(), {1e9});

@@ -80,7 +80,7 @@ TEST(Criterion, OddsAccumulateOverInterruptions) {
   EXPECT_FALSE(found[0].open);
 }
 
-TEST(Criterion, AnEpisodeStillOpenAtTheEndIsGiven) {
+TEST(Criterion, AnEpisodeThatIsOpenAtTheEndIsReported) {
   for (const auto& options : {kThreeInARow, kOdds}) {
     const auto found = episodes(options, outputs_of("...aaaaaa"));
     ASSERT_EQ(found.size(), 1u);
@@ -115,7 +115,7 @@ TEST(Criterion, SegmentBordersChangeNothing) {
   }
 }
 
-TEST(Criterion, ThePriorOfTrainingIsTakenOut) {
+TEST(Criterion, ThePriorOfTrainingIsDividedOut) {
   OutputMeaning rare =
       kMeaning;  // where the fault was 40 times likelier than none, 0.8 against 0.1 speaks for none
   rare.prior = VectorXd(3);

@@ -54,7 +54,7 @@ const SampleClassifier& trained() {
   return classifier;
 }
 
-TEST(SampleClassifier, HasAnOutputAFaultAndNoneLast) {
+TEST(SampleClassifier, HasAnOutputPerFaultAndALastOneForNoFault) {
   const SampleClassifier& classifier = trained();
   ASSERT_EQ(classifier.classes.size(), 4u);
   EXPECT_EQ(classifier.classes[1], (FaultLabel{FaultKind::free_swinging, 2_joint}));
@@ -62,7 +62,7 @@ TEST(SampleClassifier, HasAnOutputAFaultAndNoneLast) {
   EXPECT_NEAR(classifier.prior.sum(), 1.0, 1e-12);
 }
 
-TEST(SampleClassifier, BothNetworksFindAFreeJointOnRunsTheyDidNotSee) {
+TEST(SampleClassifier, BothNetworksFindAFreeJointOnHeldOutRuns) {
   const SampleClassifier& classifier = trained();
   const OutputMeaning meaning{classifier.classes, classifier.prior};
   for (const bool use_mlp : {true, false}) {
@@ -105,7 +105,7 @@ Eigen::Vector2d errors_of(const SampleClassifier& classifier,
   return squares / count;
 }
 
-TEST(SampleClassifier, ThePapersFeaturesTrainToo) {
+TEST(SampleClassifier, TrainsWithTheFeaturesOfThePaper) {
   SampleClassifierOptions options{.features = SampleFeatures::velocity, .output = OutputKind::linear};
   const SampleClassifier paper = train_sample_classifier(runs(6, 100), generator(), options);
   EXPECT_EQ(paper.mlp.inputs(), 3);
@@ -113,7 +113,7 @@ TEST(SampleClassifier, ThePapersFeaturesTrainToo) {
   EXPECT_LT(errors.maxCoeff(), 0.18);  // 4 outputs, one of them 1: always saying a quarter leaves 0.1875
 }
 
-TEST(SampleClassifier, FeaturesOfBothHypothesesTellAFreeJointWithAllRunsTraining) {
+TEST(SampleClassifier, FeaturesOfBothHypothesesIdentifyAFreeJoint) {
   const SampleClassifierOptions options{.features = SampleFeatures::hypotheses, .validate_every = 0};
   const SampleClassifier both = train_sample_classifier(runs(6, 100), generator(), options);
   EXPECT_EQ(both.mlp.inputs(), 9);
@@ -122,7 +122,7 @@ TEST(SampleClassifier, FeaturesOfBothHypothesesTellAFreeJointWithAllRunsTraining
   EXPECT_LT(errors[1], 0.05);
 }
 
-TEST(SampleClassifier, BackPropagationTrainsToo) {
+TEST(SampleClassifier, TrainsByBackPropagation) {
   const SampleClassifierOptions options{
       .output = OutputKind::linear, .trainer = SampleTrainer::back_propagation, .max_iterations = 50};
   const SampleClassifier classifier = train_sample_classifier(runs(6, 100), generator(), options);

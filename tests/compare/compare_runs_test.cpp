@@ -58,7 +58,7 @@ RunComparison compared(const Log& a, const Log& b, AlignmentKind align = Alignme
 
 std::string told(const RunComparison& comparison) { return to_text(comparison, {0}); }
 
-TEST(CompareRuns, OfOneMotionWithOtherNoiseAreTheSame) {
+TEST(CompareRuns, RunsOfOneMotionWithDifferentNoiseAreTheSame) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const RunComparison c =
         compared(run_of(fixed_motion(15.0), seed), run_of(fixed_motion(15.0), seed + 100));
@@ -70,7 +70,7 @@ TEST(CompareRuns, OfOneMotionWithOtherNoiseAreTheSame) {
   }
 }
 
-TEST(CompareRuns, AShiftOfAQuarterSecondIsFoundAndTheRunsAreTheSameThen) {
+TEST(CompareRuns, AShiftOfAQuarterSecondIsFoundAndCompensated) {
   const Log a = run_of(fixed_motion(15.0), 1), b = without_head(run_of(fixed_motion(15.0), 2), 0.25);
   const RunComparison c = compared(a, b);
   EXPECT_EQ(c.alignment.kind, AlignmentKind::motion);
@@ -85,7 +85,7 @@ TEST(CompareRuns, AShiftOfAQuarterSecondIsFoundAndTheRunsAreTheSameThen) {
   EXPECT_EQ(by_time.alignment.shift_s, 0.0);
 }
 
-TEST(CompareRuns, AShiftIsFoundFromPositionsAloneToo) {
+TEST(CompareRuns, AShiftIsFoundFromPositionsAlone) {
   Log a = run_of(fixed_motion(15.0), 1), b = without_head(run_of(fixed_motion(15.0), 2), 0.25);
   b.q_ref.clear();
   b.dq_ref.clear();
@@ -95,7 +95,7 @@ TEST(CompareRuns, AShiftIsFoundFromPositionsAloneToo) {
   EXPECT_TRUE(c.same()) << told(c);
 }
 
-TEST(CompareRuns, AFaultIsTheFirstDivergenceAndNothingBeforeIt) {
+TEST(CompareRuns, TheOnsetOfAFaultIsTheFirstDivergence) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double head : {0.0, 0.25}) {
     SimulationSpec bad = fixed_motion(15.0);
@@ -120,7 +120,7 @@ TEST(CompareRuns, LengthsAndSamplePeriodsMayDiffer) {
   EXPECT_TRUE(back.same()) << told(back);
 }
 
-TEST(CompareRuns, OfDifferentMotionsSayThatTheMotionDiffers) {
+TEST(CompareRuns, RunsOfDifferentMotionsAreReportedAsSuch) {
   SimulationSpec other = fixed_motion(15.0);
   other.motion.points = {{0.0}, {-0.2}, {0.05}, {-0.33}};
   const RunComparison c = compared(run_of(fixed_motion(15.0), 1), run_of(other, 2));
@@ -129,7 +129,7 @@ TEST(CompareRuns, OfDifferentMotionsSayThatTheMotionDiffers) {
   EXPECT_NE(verdict_of(c).find("different motions"), std::string::npos);
 }
 
-TEST(CompareRuns, ASevereFaultWithoutReferencesIsNoOtherMotion) {
+TEST(CompareRuns, ASevereFaultWithoutReferencesIsNotADifferentMotion) {
   SimulationSpec good = fixed_motion(15.0), bad = good;
   good.record_reference = bad.record_reference = false;
   bad.faults = {{FaultKind::free_swinging, 1_joint, 7.9, std::numeric_limits<double>::infinity(), 0, 0}};
@@ -161,7 +161,7 @@ TEST(CompareRuns, OnlyResidualsOfDifferentMotionsAreJudged) {
   EXPECT_NE(verdict_of(c).find("their residuals differ from 7.9"), std::string::npos) << verdict_of(c);
 }
 
-TEST(CompareRuns, MovesThatLastDifferentlyAreAlignedByAWarp) {
+TEST(CompareRuns, MovesOfDifferentDurationAreAlignedByAWarp) {
   const RunComparison c = compared(timed(20.0, 0.0, 1), timed(20.0, 0.3, 2));
   ASSERT_TRUE(c.alignment.warped()) << c.alignment.why;
   EXPECT_LT(c.alignment.left_rms, 0.01) << c.alignment.why;
@@ -176,7 +176,7 @@ TEST(CompareRuns, MovesThatLastDifferentlyAreAlignedByAWarp) {
   EXPECT_EQ(bad.first_divergence()->joint, 2_joint);
 }
 
-TEST(CompareRuns, OneOutlierIsNoDivergence) {
+TEST(CompareRuns, OneOutlierIsNotADivergence) {
   Log b = run_of(fixed_motion(15.0), 2);
   b.q[0][500] += 0.1;
   const RunComparison c = compared(run_of(fixed_motion(15.0), 1), b);
@@ -185,19 +185,19 @@ TEST(CompareRuns, OneOutlierIsNoDivergence) {
   EXPECT_NEAR(c.signals[0].largest_s, 5.0, 1e-6);
 }
 
-TEST(CompareRuns, OfARunWithItselfHaveNoDifference) {
+TEST(CompareRuns, ARunDoesNotDifferFromItself) {
   const Log a = run_of(fixed_motion(5.0), 1);
   const RunComparison c = compared(a, a);
   EXPECT_TRUE(c.same());
   for (const SignalDifference& signal : c.signals) EXPECT_EQ(signal.rms, 0.0);
 }
 
-TEST(CompareRuns, OtherJointsAndTooFewRowsAreRefused) {
+TEST(CompareRuns, AnotherNumberOfJointsAndTooFewRowsAreRefused) {
   EXPECT_THROW(compared(timed(5.0, 0.0, 1), run_of(fixed_motion(5.0), 1)), Error);
   EXPECT_THROW(run_signals("a", slice(timed(5.0, 0.0, 1), 0, 5)), Error);
 }
 
-TEST(ComparisonPage, HoldsTheAnswerAndEveryJointAndNoScript) {
+TEST(ComparisonPage, ShowsTheVerdictAndEveryJointWithoutScript) {
   const RunComparison c = compared(timed(20.0, 0.0, 1), timed(20.0, 0.3, 2, 7.9));
   const std::string page = render_comparison_html(c, {});
   EXPECT_NE(page.find("The runs differ from 7.9"), std::string::npos);

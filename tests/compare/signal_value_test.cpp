@@ -28,7 +28,7 @@ TEST(ValueBetween, IsExactOnACubicAndMissingOutsideAndInGaps) {
   EXPECT_TRUE(std::isnan(value_between(time, values, 0.43, 0.3).value));
 }
 
-TEST(NoiseOf, IsThatOfTheNoiseWhateverTheMotionAndAFewJumps) {
+TEST(NoiseOf, IsIndependentOfTheMotionAndOfAFewJumps) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise(0.0, 1e-3);
   std::vector<double> values;
@@ -42,7 +42,7 @@ TEST(NoiseOf, IsThatOfTheNoiseWhateverTheMotionAndAFewJumps) {
   EXPECT_EQ(noise_of({}), 0.0);
 }
 
-TEST(WarpedPlaces, FollowTheOtherMotionAndNeverGoBack) {
+TEST(WarpedPlaces, FollowTheOtherMotionAndNeverDecrease) {
   MotionSamples a, b;
   for (int i = 0; i <= 100; ++i) a.push_back({std::sin(0.06 * i)});
   for (int i = 0; i <= 200; ++i) b.push_back({std::sin(0.03 * i)});

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-TEST(IssueJson, WhatAnIssueDoesNotSayIsNull) {
+TEST(IssueJson, MissingFactsOfAnIssueAreNull) {
   EXPECT_EQ(issue_json({"time_gap", "t", Severity::warning, "rows are missing", 17, 0.5, 2, 1}).dump(),
             R"({"code":"time_gap","channel":"t","severity":"warning","message":"rows are missing",)"
             R"("first_row":17,"first_time_s":0.5,"count":2,"rows_dropped":1})");

@@ -91,7 +91,7 @@ TEST(JsonFields, AreWrittenInTheirOrder) {
             "\"below\":{\"parts\":[{\"joint\":1,\"size\":0.5},{\"joint\":2,\"size\":null}]},\"spare\":null}");
 }
 
-TEST(JsonFields, AreReadAsTheyWereWritten) {
+TEST(JsonFields, AreReadBackUnchanged) {
   Thing whole = thing();
   whole.onset_s = 0.0;
   whole.note = "n";
@@ -122,7 +122,7 @@ TEST(JsonFields, AMissingMemberIsRefusedByItsKey) {
   }
 }
 
-TEST(JsonFields, AnotherTypeOrNameIsRefused) {
+TEST(JsonFields, AWrongTypeOrNameIsRefused) {
   const auto with = [](const char* key, const Json& value) {
     Json json = fields_to_json<Json>(thing());
     json[key] = value;
@@ -134,7 +134,7 @@ TEST(JsonFields, AnotherTypeOrNameIsRefused) {
   EXPECT_THROW(with("interval", Json::array({1.0})), nlohmann::json::exception);
 }
 
-TEST(JsonFields, NumbersOfMatricesAndFiniteOnesAreNotNull) {
+TEST(JsonFields, NullInAMatrixOrInPlaceOfAFiniteNumberIsRefused) {
   Matrices m{Eigen::VectorXd::LinSpaced(3, 0.0, 0.3), Eigen::VectorXi::LinSpaced(3, 1, 3),
              Eigen::MatrixXd::Identity(2, 3), 0.1};
   const auto json = fields_to_json<nlohmann::json>(m);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(JsonValues, WhatIsNotFiniteIsNull) {
+TEST(JsonValues, NumbersThatAreNotFiniteAreNull) {
   EXPECT_EQ(number_or_null(0.1).dump(), "0.1");
   EXPECT_TRUE(number_or_null(std::nan("")).is_null());
   EXPECT_TRUE(number_or_null(-kInfinity).is_null());
@@ -29,7 +29,7 @@ TEST(JsonValues, AnEmptyTextAndACountOfZeroAreNull) {
   EXPECT_TRUE(count_or_null(0).is_null());
 }
 
-TEST(JsonValues, ComeBackFromBothKindsOfJson) {
+TEST(JsonValues, AreReadBackFromPlainAndOrderedJson) {
   EXPECT_EQ(number_or_nan(number_or_null(0.1)), 0.1);
   EXPECT_TRUE(std::isnan(number_or_nan(nlohmann::json(nullptr))));
   EXPECT_TRUE(std::isnan(number_or_nan(nlohmann::ordered_json(nullptr))));
@@ -39,7 +39,7 @@ TEST(JsonValues, ComeBackFromBothKindsOfJson) {
   EXPECT_EQ(count_or_zero(count_or_null(3)), 3);
 }
 
-TEST(JsonValues, AnotherKindOfValueIsRefused) {
+TEST(JsonValues, AValueOfTheWrongTypeIsRefused) {
   EXPECT_THROW(number_or_nan(nlohmann::json("1")), nlohmann::json::exception);
   EXPECT_THROW(text_or_empty(nlohmann::ordered_json(1)), nlohmann::json::exception);
 }
@@ -50,13 +50,13 @@ TEST(JsonValues, AListRendersItsItemsInOrder) {
   EXPECT_EQ(list_of<nlohmann::ordered_json>(std::vector<int>{}, doubled).dump(), "[]");
 }
 
-TEST(JsonDepth, ListsWithinListsAreRefused) {
+TEST(JsonDepth, MoreThan64NestedListsAreRefused) {
   EXPECT_THROW(refuse_deep_json(std::string(65, '['), "x.json"), Error);
   EXPECT_THROW(refuse_deep_json("{\"a\": " + std::string(64, '{'), "x.json"), Error);
   EXPECT_NO_THROW(refuse_deep_json(std::string(64, '[') + std::string(64, ']'), "x.json"));
 }
 
-TEST(JsonDepth, TextIsNotNested) {
+TEST(JsonDepth, BracketsInTextsAndListsInSuccessionAreNotDeep) {
   EXPECT_NO_THROW(
       refuse_deep_json("[\"" + std::string(100, '[') + "\\\"" + std::string(100, '{') + "\"]", "x"));
   std::string many;
@@ -79,7 +79,7 @@ std::string refusal(Read read) {
   return "nothing was thrown";
 }
 
-TEST(JsonMembers, AreReadAsWhatTheyAre) {
+TEST(JsonMembers, AreReadByTheirType) {
   EXPECT_EQ(number_from_json(kObject, "number", "file"), 0.1);
   EXPECT_EQ(text_from_json(kObject, "text", "file"), "a");
   EXPECT_TRUE(flag_from_json(kObject, "flag", "file"));
@@ -92,7 +92,7 @@ TEST(JsonMembers, AMissingMemberIsNamed) {
   EXPECT_EQ(refusal([] { member_of(nlohmann::json(1), "other", "file"); }), "key \"other\" is missing");
 }
 
-TEST(JsonMembers, AnotherKindOfValueIsRefused) {
+TEST(JsonMembers, AValueOfTheWrongTypeIsRefused) {
   EXPECT_EQ(refusal([] { number_from_json(kObject, "text", "file"); }),
             "text: expected a finite number, found \"a\"");
   EXPECT_EQ(refusal([] { text_from_json(kObject, "number", "file"); }), "number: expected a text");

@@ -24,7 +24,7 @@ TEST(Statistics, TheMedianInPlaceKeepsTheValues) {
   EXPECT_TRUE(std::is_permutation(values.begin(), values.end(), kFour.begin()));
 }
 
-TEST(Statistics, QuantilesDifferInWhereTheyRound) {
+TEST(Statistics, QuantilesDifferInTheirRounding) {
   EXPECT_EQ(upper_quantile(kFour, 0.5), 3.0);
   EXPECT_EQ(lower_quantile(kFour, 0.5), 2.0);
   EXPECT_EQ(nearest_rank_quantile(kFour, 0.5), 2.0);
@@ -42,7 +42,7 @@ TEST(Statistics, QuantilesReachFromTheSmallestToTheLargestValue) {
   }
 }
 
-TEST(Statistics, NoValueHasNoStatistic) {
+TEST(Statistics, StatisticsOfNoValuesAreNaN) {
   EXPECT_TRUE(std::isnan(upper_median({})));
   for (const auto quantile : {upper_quantile, lower_quantile, nearest_rank_quantile})
     EXPECT_TRUE(std::isnan(quantile({}, 0.5)));

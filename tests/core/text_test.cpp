@@ -15,11 +15,11 @@ TEST(Text, WrapsAtWordsAndCountsCharactersNotBytes) {
   EXPECT_EQ(wrapped("", "  ", 9), "");
 }
 
-TEST(Text, PrintableDropsEscapes) {
+TEST(Text, PrintableReplacesEscapes) {
   EXPECT_EQ(printable("a\x1b[2J\tb\x7f\xc2\x9b\xc3\xa9"), "a?[2J b??\xc3\xa9");
 }
 
-TEST(Text, PrintableDropsMarksOfDirection) {
+TEST(Text, PrintableReplacesMarksOfDirection) {
   EXPECT_EQ(printable("a\xe2\x80\xaegnp.exe\xe2\x81\xa9"), "a?gnp.exe?");
   EXPECT_EQ(printable("\xe2\x82\xac \xe2\x80\x94"), "\xe2\x82\xac \xe2\x80\x94") << "euro sign and dash stay";
 }
@@ -39,13 +39,13 @@ TEST(Text, BriefShortensLongWordsAndLongSentences) {
   EXPECT_LT(brief(words).size(), 4100u);
 }
 
-TEST(Text, OutgoingKeepsLinesAndOurColoursOnly) {
+TEST(Text, OutgoingKeepsOnlyLinesAndColoursOfTheProgram) {
   const std::string text = painted("a", Paint::red, true) + "\n\x1b[2J\x1b]0;title\x07\tb\n";
   EXPECT_EQ(outgoing(text, true), "\x1b[31ma\x1b[0m\n?[2J?]0;title? b\n");
   EXPECT_EQ(outgoing(text, false), "?[31ma?[0m\n?[2J?]0;title? b\n");
 }
 
-TEST(Text, ErrorsAndIssuesPassTheGate) {
+TEST(Text, MessagesOfErrorsAndIssuesAreShortAndPrintable) {
   const Error error(ErrorCode::input, "a\x1b[2J.csv", "has \"" + std::string(1 << 16, 'n') + "\"\nin it");
   EXPECT_TRUE(std::string(error.what()).starts_with("a?[2J.csv: has \"nnn"));
   EXPECT_LT(error.message().size(), 600u);
@@ -56,19 +56,19 @@ TEST(Text, ErrorsAndIssuesPassTheGate) {
   EXPECT_EQ(issues.all()[0].message, "cell \"?[2J\"");
 }
 
-TEST(Text, OneIsNoPlural) {
+TEST(Text, CountedUsesTheSingularForOne) {
   EXPECT_EQ(counted(0, "log"), "0 logs");
   EXPECT_EQ(counted(1, "log"), "1 log");
   EXPECT_EQ(counted(2, "log"), "2 logs");
 }
 
-TEST(Paint, IsThereOnlyWhenAskedFor) {
+TEST(Paint, IsAddedOnlyOnRequest) {
   EXPECT_EQ(painted("text", Paint::bold_red, true), "\x1b[1;31mtext\x1b[0m");
   EXPECT_EQ(painted("text", Paint::red, true), "\x1b[31mtext\x1b[0m");
   EXPECT_EQ(painted("text", Paint::red, false), "text");
 }
 
-TEST(Utf8, ValidTextStays) {
+TEST(Utf8, ValidTextIsUnchanged) {
   for (const char* text : {"", "plain", "caf\xc3\xa9", "\xe2\x86\x92", "\xf0\x9f\xa4\x96", "\xef\xbf\xbd"})
     EXPECT_EQ(valid_utf8(text), text);
 }

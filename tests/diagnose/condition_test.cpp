@@ -29,7 +29,7 @@ TEST(Condition, SharesAreInPercentAndTorquesInTheUnitOfTheJoint) {
   EXPECT_EQ(items[2].unit, "N");
 }
 
-TEST(Condition, BeyondIsTheWholeIntervalOutsideTheNormalRange) {
+TEST(Condition, AnItemIsBeyondIfItsWholeIntervalIsOutsideTheNormalRange) {
   const auto items = condition_of({estimate(DayEffectKind::friction, 1_joint, 0.15, 0.52, 0.01),
                                    estimate(DayEffectKind::friction, 2_joint, 0.15, 0.35, 0.1),
                                    estimate(DayEffectKind::torque_gain, 1_joint, 0.01, -0.05, 0.01)},
@@ -43,7 +43,7 @@ TEST(Condition, BeyondIsTheWholeIntervalOutsideTheNormalRange) {
   EXPECT_EQ(beyond_normal({items[1]}), "");
 }
 
-TEST(Condition, IsToldWhereTheLogSaysMoreThanTheNormalRange) {
+TEST(Condition, AnItemIsDeterminedIfTheLogNarrowsItsNormalRange) {
   const auto items = condition_of({estimate(DayEffectKind::friction, 1_joint, 0.15, 0.0, 0.14),
                                    estimate(DayEffectKind::friction, 2_joint, 0.15, 0.0, 0.16)},
                                   preset_robot("RRP").chain);

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-TEST(EpisodeOf, HasOneNumberAFeatureAndTheBestEvidence) {
+TEST(EpisodeOf, HasOneNumberPerFeatureAndTheBestEvidence) {
   const Model model = hand_made_rrp();
   const Episode episode = seen(episode_of_fault(kLocked2, 77.0), model);
   EXPECT_EQ(episode.features.size(), features_of(model).size());
@@ -58,7 +58,7 @@ TEST(DecideEpisode, TimesAndTraceComeFromTheEvidence) {
   EXPECT_EQ(finding.trace.time, episode.fault.trace.time);
 }
 
-TEST(DecideEpisode, SimilarCasesChooseBetweenFaultsThatExplainTheLogAlike) {
+TEST(DecideEpisode, SimilarCasesChooseBetweenFaultsThatExplainTheLogEquallyWell) {
   const Model model = hand_made_rrp({kLocked2, 0.6}, {kStuck2, 0.9});
   MonitoredEpisode episode = episode_of_fault(kLocked2);
   explain_alike(episode, kStuck2, 99.0);
@@ -71,7 +71,7 @@ TEST(DecideEpisode, SimilarCasesChooseBetweenFaultsThatExplainTheLogAlike) {
   EXPECT_NE(alternative(finding, kLocked2), nullptr) << "what explains the log best is always listed";
 }
 
-TEST(DecideEpisode, WhatTheLogExcludesIsNotNamedThoughNetworksAndCasesSayIt) {
+TEST(DecideEpisode, AFaultThatTheLogExcludesIsNotNamedDespiteNetworksAndCases) {
   const Model model = hand_made_rrp({kBias3, 0.9}, {kBias3, 0.9});
   MonitoredEpisode episode = episode_of_fault(kLocked2);
   explain(episode, kBias3, 40.0);
@@ -82,7 +82,7 @@ TEST(DecideEpisode, WhatTheLogExcludesIsNotNamedThoughNetworksAndCasesSayIt) {
   EXPECT_NE(alternative(finding, kBias3), nullptr);
 }
 
-TEST(DecideEpisode, TheEvidenceNamesWhatNetworksAndCasesDoNotSettle) {
+TEST(DecideEpisode, TheEvidenceDecidesIfNetworksAndCasesDoNot) {
   const Model model = hand_made_rrp({kBias3, 0.9}, {kDrift1, 0.5});
   MonitoredEpisode episode = episode_of_fault(kLocked2);
   explain_alike(episode, kStuck2, 99.0);
@@ -94,7 +94,7 @@ TEST(DecideEpisode, TheEvidenceNamesWhatNetworksAndCasesDoNotSettle) {
   EXPECT_NE(alternative(finding, kBias3), nullptr);
 }
 
-TEST(DecideEpisode, AFaultOfNoKnownFormIsUnknownWhateverNetworksSay) {
+TEST(DecideEpisode, AFaultOfNoKnownFormIsUnknownDespiteNetworksThatAgree) {
   const Model model = hand_made_rrp({kLocked2, 0.9}, {kLocked2, 0.9});
   MonitoredEpisode episode = episode_of_fault(kLocked2);
   episode.fault.claim.kind = FaultKind::unknown;

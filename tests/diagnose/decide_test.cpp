@@ -20,7 +20,7 @@ std::vector<std::string> warnings(const Episode& episode, const CaseBase& base) 
   return warnings_of_cases(decided(episode, base), votes_on(episode, base));
 }
 
-TEST(Decide, AgreementIsBelievedAndCasesArePrecedents) {
+TEST(Decide, NetworksThatAgreeDecideAndCasesArePrecedents) {
   const CaseBase base = example_base();
   const Episode episode = episode_at(2, 0, {kLocked, 0.9}, {kLocked, 0.7});
   const Decision decision = decided(episode, base);
@@ -76,7 +76,7 @@ TEST(Decide, AFaultThatTheLogExcludesGivesWayToTheLikeliest) {
   EXPECT_GT(decision.confidence, 0.9);
 }
 
-TEST(Decide, WhereEveryKnownFaultLeavesMoreThanNoiseTheFaultIsUnknown) {
+TEST(Decide, AFaultThatNoKnownKindExplainsIsUnknown) {
   const Decision decision = decided_with({FaultKind::unknown, 2_joint}, {kLocked});
   EXPECT_EQ(decision.label, (FaultLabel{FaultKind::unknown, Joint()}));
   EXPECT_EQ(decision.reason, DecisionReason::no_known_form);
@@ -93,27 +93,27 @@ TEST(Decide, CasesSettleADisagreement) {
   EXPECT_EQ(second.label, kFree);
 }
 
-TEST(Decide, CasesMayNameWhatNoNetworkNamed) {
+TEST(Decide, CasesMayNameAFaultThatNoNetworkNamed) {
   const CaseBase base = example_base();
   const Episode episode = episode_at(0, 2, {kLocked, 0.5}, {kFree, 0.5});
   EXPECT_EQ(decided(episode, base).label, kBias);
   EXPECT_EQ(votes_on(episode, base).shares[0].label, kBias);
 }
 
-TEST(Decide, NothingNearSettlesNoDisagreement) {
+TEST(Decide, ADisagreementWithoutSimilarCasesStaysUndecided) {
   const CaseBase base = example_base();
   const Episode episode = episode_at(40, -40, {kBias, 0.9}, {kFree, 0.9});
   EXPECT_EQ(decided(episode, base).label.kind, FaultKind::none);
   EXPECT_TRUE(votes_on(episode, base).precedents.empty());
 }
 
-TEST(Decide, NetworksThatAgreeButHardlyBelieveItSayNothing) {
+TEST(Decide, NetworksThatAgreeWithLowConfidenceAbstain) {
   const Decision unsure = decided(episode_at(2, 0, {kLocked, 0.1}, {kLocked, 0.1}), example_base());
   EXPECT_EQ(unsure.label.kind, FaultKind::none);
   EXPECT_EQ(unsure.decided_by, DecidedBy::abstained);
 }
 
-TEST(Decide, EvenVotesSettleNothing) {
+TEST(Decide, EqualVotesDecideNothing) {
   const CaseBase base = example_base();
   const VoteOptions options{.neighbours = 1, .opinion_weight = 1.0};
   const Decision decision = decided(episode_at(0, 0, {kBias, 1.0}, {kLocked, 1.0}), base, options);

@@ -37,7 +37,7 @@ TEST_F(FaultEnd, AShortCollisionEndsWhenItIsOver) {
   }
 }
 
-TEST_F(FaultEnd, WhatLastsEndsWithTheLog) {
+TEST_F(FaultEnd, ALastingFaultEndsWithTheLog) {
   for (const auto& [kind, size] : {std::pair{FaultKind::sensor_bias, 0.02}, {FaultKind::torque_loss, 0.5}}) {
     const auto faults = found({{kind, 1_joint, 5.0, kForEver, size, 0.0}});
     ASSERT_EQ(faults.size(), 1u) << to_string(kind);

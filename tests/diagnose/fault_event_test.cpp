@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 FaultEvent from_text(const std::string& text) { return fields_from_json<FaultEvent>(Json::parse(text), ""); }
 
-TEST(FaultEvent, ComesBackFromItsJsonAsItWas) {
+TEST(FaultEvent, IsReadBackFromItsJson) {
   const FaultEvent event{{FaultKind::locked, 2_joint}, 0.1 + 0.2, 1763710000.073, NAN, 0.75};
   const FaultEvent read = from_text(fields_to_json<Json>(event).dump());
   EXPECT_EQ(read.label, event.label);
@@ -25,7 +25,7 @@ TEST(FaultEvent, ComesBackFromItsJsonAsItWas) {
   EXPECT_EQ(read.confidence, event.confidence);
 }
 
-TEST(FaultEvent, OfALogWithRunsKeepsItsRunAndSaysTheTimeOnThatRunsClock) {
+TEST(FaultEvent, HasItsRunAndTheTimeOnTheClockOfThatRun) {
   const FaultEvent event{{FaultKind::locked, 2_joint}, 12.5, 12.6, 14.0, 0.75, 2, 10.25};
   const FaultEvent read = from_text(fields_to_json<Json>(event).dump());
   EXPECT_EQ(read.run, 2);
@@ -37,14 +37,14 @@ TEST(FaultEvent, OfALogWithRunsKeepsItsRunAndSaysTheTimeOnThatRunsClock) {
   EXPECT_EQ(clock_words(single, 13.0, 0.01), "13.000 s");
 }
 
-TEST(FaultEvent, OfNoJointHasNullForIt) {
+TEST(FaultEvent, HasNullForAMissingJoint) {
   const Json json = fields_to_json<Json>(FaultEvent{{FaultKind::unknown, Joint()}, 1.0, 1.5, INFINITY, 0.5});
   EXPECT_EQ(json.dump(),
             R"({"kind":"unknown","joint":null,"onset_s":1.0,"alarm_s":1.5,"end_s":null,"confidence":0.5})");
   EXPECT_EQ(fields_from_json<FaultEvent>(json, "").label.joint, Joint());
 }
 
-TEST(FaultEvent, IncompleteOrUnknownIsRefused) {
+TEST(FaultEvent, AnIncompleteEventOrAnUnknownKindIsRefused) {
   Json json = fields_to_json<Json>(FaultEvent{{FaultKind::locked, 1_joint}, 1.0, 1.0, 2.0, 0.9});
   json["kind"] = "loked";
   EXPECT_THROW(fields_from_json<FaultEvent>(json, ""), Error);
@@ -52,7 +52,7 @@ TEST(FaultEvent, IncompleteOrUnknownIsRefused) {
   EXPECT_THROW(fields_from_json<FaultEvent>(json, ""), nlohmann::json::exception);
 }
 
-TEST(FaultEvent, OfAFindingHasItsLabelTimesAndConfidence) {
+TEST(FaultEvent, HasTheLabelTimesAndConfidenceOfItsFinding) {
   FaultFinding finding;
   finding.label = {FaultKind::locked, 2_joint};
   finding.onset_s = 3.0;

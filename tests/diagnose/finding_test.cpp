@@ -22,7 +22,7 @@ std::string size_text(const FaultLabel& label, double size, double second_size =
   return found ? found->text : "";
 }
 
-TEST(Alternatives, ThoseThatExplainTheLogAlmostAsWellAreListed) {
+TEST(Alternatives, ListTheFaultsThatExplainTheLogAlmostAsWell) {
   const Model model = agreed_on(kLocked2);
   MonitoredEpisode episode = episode_of_fault(kLocked2);
   explain_alike(episode, kStuck2, 97.0);
@@ -42,7 +42,7 @@ FaultFinding pushed(const Eigen::Vector3d& torque) {
   return decided(model, episode);
 }
 
-TEST(PushOnAllJoints, ListsTheJointsItReachedByTheirUsualTorque) {
+TEST(PushOnAllJoints, ListsTheJointsThatGotALargeShareOfTheirUsualTorque) {
   const FaultFinding first = pushed({20.0, 6.0, -5.0});  // largest torques 20, 10, 40
   EXPECT_EQ(first.label, kPush1);
   EXPECT_NE(alternative(first, {FaultKind::collision, 2_joint}), nullptr);
@@ -53,7 +53,7 @@ TEST(PushOnAllJoints, ListsTheJointsItReachedByTheirUsualTorque) {
   EXPECT_NE(alternative(second, {FaultKind::collision, 3_joint}), nullptr);
 }
 
-TEST(SizeText, SaysHowLargeEachKindIsWithItsUnit) {
+TEST(SizeText, StatesTheSizeOfEachKindWithItsUnit) {
   EXPECT_EQ(size_text({FaultKind::torque_loss, 2_joint}, 0.436), "about 44 % of the torque is lost");
   EXPECT_EQ(size_text({FaultKind::sensor_bias, 1_joint}, 0.0321), "the position reads 0.0321 rad too much");
   EXPECT_EQ(size_text({FaultKind::sensor_bias, 3_joint}, -0.0021), "the position reads 0.0021 m too little");
@@ -67,7 +67,7 @@ TEST(SizeText, SaysHowLargeEachKindIsWithItsUnit) {
   EXPECT_EQ(size_text(kLocked2, 0.0), "") << "a lock has no size";
 }
 
-TEST(SizeText, OfAFaultThatGrowsIsWhatItHasGrownTo) {
+TEST(SizeText, StatesTheFinalSizeOfAFaultThatGrows) {
   const FaultLabel friction{FaultKind::friction_increase, 1_joint};
   MonitoredEpisode episode = episode_of_fault(friction, 100.0, 1.0, 2.0);
   episode.fault.scores.front().claim.grows = true;
@@ -75,7 +75,7 @@ TEST(SizeText, OfAFaultThatGrowsIsWhatItHasGrownTo) {
             "dry friction changed by +4 N m, viscous friction by +2 N m s/rad");
 }
 
-TEST(EvidenceLines, TellTheEvidenceAndTheThreshold) {
+TEST(EvidenceLines, StateTheEvidenceAndTheThreshold) {
   const FaultFinding finding = decided(agreed_on(kLocked2), episode_of_fault(kLocked2, 64.0));
   const EvidenceItem* ratio = item(finding, "log_likelihood_ratio");
   ASSERT_NE(ratio, nullptr);
@@ -102,7 +102,7 @@ TEST(EpisodeFacts, KeepTheFeaturesUnderTheNamesOfTheCaseBase) {
   EXPECT_EQ(finding.episode.features.front().first, "behind free_swinging 1");
 }
 
-TEST(LastingFriction, IsFrictionWhoseWholeIntervalIsBeyondTwiceTheNormalRange) {
+TEST(LastingFriction, IsReportedIfItsWholeIntervalExceedsTwiceTheNormalRange) {
   const auto friction = [](double value, double std) {
     return lasting_friction({{DayEffectKind::friction, 2_joint, value, std, 0.1}}).size();
   };
@@ -112,7 +112,7 @@ TEST(LastingFriction, IsFrictionWhoseWholeIntervalIsBeyondTwiceTheNormalRange) {
   EXPECT_EQ(friction(-0.9, 0.01), 0u) << "less friction is no fault";
 }
 
-TEST(LastingFriction, OtherEffectsTakeOverFromEachOtherAndAreNone) {
+TEST(LastingFriction, IsNotReportedForOtherEffectsOfTheDay) {
   EXPECT_TRUE(lasting_friction({{DayEffectKind::torque_gain, 1_joint, 5.0, 0.01, 0.1}}).empty());
 }
 

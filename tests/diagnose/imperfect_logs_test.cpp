@@ -82,7 +82,7 @@ void blank_from(std::vector<double>& values, const Log& log, double from_s) {
     if (log.time[k] >= from_s) values[k] = std::nan("");
 }
 
-TEST_F(ImperfectLogs, ALostRowAndARecordedEmptyOneGiveTheSameVerdict) {
+TEST_F(ImperfectLogs, ALostRowAndAnEmptyRowGiveTheSameVerdict) {
   const Log healthy = read("healthy_quintic.csv");
   for (int row = 10; row + 10 < healthy.rows(); row += 7) {
     Log blank = healthy;
@@ -115,7 +115,7 @@ TEST_F(ImperfectLogs, AFaultIsStillFoundAmongLostRows) {
   EXPECT_EQ(diagnosed(without_rows(faulty, lost)).verdict, Verdict::faulty);
 }
 
-TEST_F(ImperfectLogs, ValuesThatEndWithTheFaultAreNoHealthyLog) {
+TEST_F(ImperfectLogs, ALogWhoseValuesEndWithTheFaultIsNotHealthy) {
   for (const char* name :
        {"torque_loss_2.csv", "locked_1.csv", "payload_change.csv", "stuck_encoder_3.csv"}) {
     Log log = read(name);
@@ -130,7 +130,7 @@ TEST_F(ImperfectLogs, ValuesThatEndWithTheFaultAreNoHealthyLog) {
   }
 }
 
-TEST_F(ImperfectLogs, ARecorderThatStopsWithTheFaultLeavesNoHealthyLog) {
+TEST_F(ImperfectLogs, ALogWhoseRecorderStopsWithTheFaultIsNotHealthy) {
   for (const char* name : {"torque_loss_2.csv", "locked_1.csv"})
     for (const bool writes_zeros : {false, true}) {
       Log log = read(name);
@@ -145,7 +145,7 @@ TEST_F(ImperfectLogs, ARecorderThatStopsWithTheFaultLeavesNoHealthyLog) {
     }
 }
 
-TEST_F(ImperfectLogs, AnEncoderThatIsSilentToTheEndIsNoHealthyLog) {
+TEST_F(ImperfectLogs, ALogWhoseEncoderIsSilentToTheEndIsNotHealthy) {
   for (int j = 0; j < 3; ++j) {
     Log log = read("healthy_trapezoidal.csv");
     blank_from(log.q[j], log, 6.0);
@@ -160,7 +160,7 @@ TEST_F(ImperfectLogs, AnEncoderThatIsSilentToTheEndIsNoHealthyLog) {
   }
 }
 
-TEST_F(ImperfectLogs, WithoutTorqueNothingIsJudgedByTorque) {
+TEST_F(ImperfectLogs, AHealthyLogWhoseTorqueEndsIsInconclusiveAndHasNoFault) {
   for (const char* name : {"healthy_quintic.csv", "healthy_trapezoidal.csv"})
     for (double from_s = 4.5; from_s < 10.0; from_s += 0.7) {
       Log log = read(name);
@@ -173,7 +173,7 @@ TEST_F(ImperfectLogs, WithoutTorqueNothingIsJudgedByTorque) {
     }
 }
 
-TEST_F(ImperfectLogs, AMomentWithoutValuesLeavesTheLogHealthyButNotTheWholeLog) {
+TEST_F(ImperfectLogs, AHealthyLogWithAFewEmptyRowsIsHealthyAndReportsTheRows) {
   Log log = read("healthy_trapezoidal.csv");
   for (int row = 80; row < 83; ++row) blank_row(log, row);
   const Diagnosis found = diagnosed(log);
@@ -181,7 +181,7 @@ TEST_F(ImperfectLogs, AMomentWithoutValuesLeavesTheLogHealthyButNotTheWholeLog) 
   EXPECT_NE(found.verdict_reason.find("3 of 165 rows"), std::string::npos) << found.verdict_reason;
 }
 
-TEST_F(ImperfectLogs, RowsThatCannotBeJudgedAndAreSpreadThinlyLeaveNoHealthyLog) {
+TEST_F(ImperfectLogs, ALogWithManyScatteredUnjudgedRowsIsNotHealthy) {
   for (const char* name : {"torque_loss_2.csv", "payload_change.csv"})
     for (const bool torque_only : {false, true}) {
       Log log = read(name);
@@ -218,7 +218,7 @@ TEST_F(ImperfectLogs, AFaultInTheSecondRunIsFoundWithItsTimeOnThatRunsClock) {
   EXPECT_NE(render_junit(found).find("(run 2, "), std::string::npos);
 }
 
-TEST_F(ImperfectLogs, AFaultEndsWithItsRunAndSoDoItsTimesInWords) {
+TEST_F(ImperfectLogs, AFaultEndsWithItsRunAndItsTimesAreOnTheClockOfTheRun) {
   const Log faulty = read("torque_loss_2.csv"), healthy = read("healthy_trapezoidal.csv");
   Log both = faulty;
   Log later = healthy;
@@ -245,7 +245,7 @@ TEST_F(ImperfectLogs, AHealthyLogWhoseClockRestartsIsJudgedAsAWhole) {
   }
 }
 
-TEST_F(ImperfectLogs, TheVerdictOnOneRunSpeaksOfThatRunOnly) {
+TEST_F(ImperfectLogs, TheVerdictOnOneRunNamesOnlyThatRun) {
   const Log log = read("torque_loss_2.csv");
   const std::string path = written(log, "restarts.csv", 60, log.time[60]);
   const Diagnosis first = diagnosed_file(path, {.run = 1}), second = diagnosed_file(path, {.run = 2});
@@ -255,7 +255,7 @@ TEST_F(ImperfectLogs, TheVerdictOnOneRunSpeaksOfThatRunOnly) {
   EXPECT_EQ(second.verdict, Verdict::faulty);
 }
 
-TEST_F(ImperfectLogs, ASecondFileWithAClockOfItsOwnIsARunThatFollows) {
+TEST_F(ImperfectLogs, ASecondFileWithItsOwnClockIsTheNextRun) {
   const Log log = read("torque_loss_2.csv");
   const std::string first = written(log, "first.csv", 60, 0.0, 60);
   Log rest = slice(log, 60, log.rows());

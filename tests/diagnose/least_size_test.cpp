@@ -31,7 +31,7 @@ FaultExtent of_payload(double kg, const Model& model) {
   return extent_of(label, {{label, 50.0, {kg / model.motion.sizes.payload, 0.0}}}, model);
 }
 
-TEST(LeastSize, IsAShareOfWhatTheRobotCarries) {
+TEST(LeastSize, IsAShareOfTheMassThatTheRobotCarries) {
   const FaultExtent gram = of_payload(0.0014, slide());
   EXPECT_NEAR(gram.size, 0.0014, 1e-12);
   EXPECT_NEAR(gram.least_size, 0.03 * 2.0, 1e-12);
@@ -40,30 +40,30 @@ TEST(LeastSize, IsAShareOfWhatTheRobotCarries) {
   EXPECT_GE(of_payload(-0.07, slide()).times_least, 1.0);
 }
 
-TEST(LeastSize, IsSetInTheRobotFileWhereZeroReportsEverySize) {
+TEST(LeastSize, IsSetInTheRobotFileAndZeroReportsEverySize) {
   EXPECT_NEAR(of_payload(0.1, slide("[least_size]\npayload_change = 0.2\n")).least_size, 0.4, 1e-12);
   EXPECT_GE(of_payload(1e-9, slide("[least_size]\npayload_change = 0\n")).times_least, 1.0);
 }
 
-TEST(LeastSize, OfARobotFileIsKeptWhenItIsWritten) {
+TEST(LeastSize, IsKeptWhenTheRobotFileIsWritten) {
   const Robot robot = slide("[least_size]\npayload_change = 0.2\nsensor_bias = 0.01\n").robot;
   EXPECT_EQ(robot_from_toml(robot_file_text(robot), "written").least_sizes, robot.least_sizes);
   EXPECT_EQ(robot_file_text(slide().robot).find("least_size"), std::string::npos);
 }
 
-TEST(LeastSize, ThatIsNoShareOrOfAKindWithoutSizeIsRefused) {
+TEST(LeastSize, ANegativeShareOrAKindWithoutSizeIsRefused) {
   EXPECT_THROW(slide("[least_size]\npayload_change = -0.1\n"), Error);
   EXPECT_THROW(slide("[least_size]\nlocked = 0.1\n"), Error);
 }
 
-TEST(LeastSize, IsSaidOfEachKindAndJoint) {
+TEST(LeastSize, IsStatedForEachKindAndJoint) {
   const std::vector<std::string> sentences = least_size_sentences(slide());
   ASSERT_EQ(sentences.size(), 1u);
   EXPECT_NE(sentences[0].find("changed payload: joint 1 0.06 kg"), std::string::npos) << sentences[0];
   EXPECT_NE(sentences[0].find("loss of torque: joint 1 3 %"), std::string::npos) << sentences[0];
 }
 
-TEST(LeastSize, AKindWithoutASizeHasNone) {
+TEST(LeastSize, IsUndefinedForAKindWithoutSize) {
   const FaultLabel locked{FaultKind::locked, 1_joint};
   EXPECT_TRUE(std::isnan(extent_of(locked, {{locked, 50.0}}, slide()).times_least));
 }

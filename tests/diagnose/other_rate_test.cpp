@@ -44,7 +44,7 @@ bool is_named(const FaultFinding& fault, FaultKind kind) {
                                                  [&](const auto& other) { return other.label.kind == kind; });
 }
 
-TEST(OtherRate, HealthyLogsAtOtherRatesStayHealthyAndSayThatTheyWereResampled) {
+TEST(OtherRate, HealthyLogsAtOtherRatesAreHealthyAndReportedAsResampled) {
   for (const double period_s : {0.002, 0.004, 0.008, 0.0095, 0.0125})
     for (const std::uint64_t seed : {41, 42, 43}) {
       const Diagnosis diagnosis = diagnosed_at(slide_at(period_s, FaultKind::none, seed));
@@ -74,7 +74,7 @@ TEST(OtherRate, AFaultIsFoundAtItsTimeOnTheClockOfTheLog) {
     EXPECT_EQ(whole, render_json(diagnosed_at(log, rows))) << "borders of segments: " << rows;
 }
 
-TEST(OtherRate, CurvesOfAReportAreThoseOfTheRowsThatWereJudged) {
+TEST(OtherRate, CurvesOfAReportShowTheJudgedRows) {
   const Model& model = learned_at_100_hz().model;
   const Log log = slide_at(0.002);
   MemorySource source(log, "run.csv");
@@ -92,7 +92,7 @@ TEST(OtherRate, CurvesOfAReportAreThoseOfTheRowsThatWereJudged) {
     EXPECT_TRUE(std::isfinite(q)) << "a bin without a row";
 }
 
-TEST(OtherRate, WhatALogMeansIsAskedAfterItsRate) {
+TEST(OtherRate, TheInterpretationIsCheckedAfterTheRate) {
   for (const FaultKind kind : {FaultKind::none, FaultKind::locked}) {
     const Diagnosis slow = diagnosed_at(slide_at(0.1, kind));
     EXPECT_EQ(slow.verdict, Verdict::inconclusive);
@@ -114,7 +114,7 @@ TEST(OtherRate, WhatALogMeansIsAskedAfterItsRate) {
       << "a robot that did not explain its own logs contradicts no other";
 }
 
-TEST(OtherRate, ALogThatIsFarTooSlowIsReadAndNotJudgedRowByRow) {
+TEST(OtherRate, ALogAtAFarTooCoarseRateIsReadButNotJudged) {
   const Diagnosis slow = diagnosed_at(slide_at(0.02, FaultKind::torque_loss));
   EXPECT_EQ(slow.verdict, Verdict::inconclusive);
   EXPECT_NE(slow.verdict_reason.find("a sample every 0.02 s"), std::string::npos) << slow.verdict_reason;

@@ -50,7 +50,7 @@ TEST_F(Precedents, ConfirmedFieldCasesComeFirstThenLabelledLogsThenSimulatedOnes
   EXPECT_NE(shown[0].origin_text.find("confirmed in the field by A. Weber"), std::string::npos);
 }
 
-TEST_F(Precedents, AFieldCaseBehindTheVotersIsShownButHasNoVote) {
+TEST_F(Precedents, AFieldCaseLessSimilarThanTheVotersIsShownWithoutAVote) {
   for (int i = 0; i < 9; ++i) add(kSimulatedOrigin, CaseOutcome::confirmed, 0.0, kLocked2);
   const FaultFinding without = finding();
   add("night.csv", CaseOutcome::confirmed, 1.0, kStuck2);
@@ -63,7 +63,7 @@ TEST_F(Precedents, AFieldCaseBehindTheVotersIsShownButHasNoVote) {
   EXPECT_TRUE(with.precedents[1].voted);
 }
 
-TEST_F(Precedents, WhatIsNotNearIsNotShownWhateverItsOrigin) {
+TEST_F(Precedents, ACaseThatIsNotSimilarIsNotShownWhateverItsOrigin) {
   add(kSimulatedOrigin, CaseOutcome::confirmed, 0.0, kLocked2);
   const auto far = add("night.csv", CaseOutcome::confirmed, 0.0, kLocked2);
   Case c = base_.at(far);
@@ -73,7 +73,7 @@ TEST_F(Precedents, WhatIsNotNearIsNotShownWhateverItsOrigin) {
   EXPECT_EQ(finding().precedents[0].origin, CaseOrigin::simulated);
 }
 
-TEST_F(Precedents, SayWhatAgreesAndWhatDoesNot) {
+TEST_F(Precedents, ListTheFeaturesThatAgreeAndThoseThatDiffer) {
   for (const FaultLabel& label : {kBias3, kPush1, kLoss1}) {  // so that some things are unusual
     Case c;
     c.episode = seen(episode_of_fault(label), model_);
@@ -95,7 +95,7 @@ TEST_F(Precedents, SayWhatAgreesAndWhatDoesNot) {
   EXPECT_NEAR(shown[0].unlike[0].here, 1.0, 1e-9);
 }
 
-TEST_F(Precedents, VotesOfSimulatedCasesAloneAreCalledSo) {
+TEST_F(Precedents, VotesOfSimulatedCasesAloneAreMarkedAsSimulated) {
   for (int i = 0; i < 5; ++i) add(kSimulatedOrigin, CaseOutcome::confirmed, 0.0, kLocked2);
   const auto decision = [this] {
     std::string text;

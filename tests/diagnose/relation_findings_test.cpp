@@ -57,7 +57,7 @@ TEST(RelationFindings, AnEpisodeIsAStretchWithItsLimit) {
   EXPECT_EQ(all[1].id, 1u);
 }
 
-TEST(RelationFindings, ALossIsSaidWithItsShareAndALawWithWhereToLook) {
+TEST(RelationFindings, ALossStatesItsShareAndALawItsNextCheck) {
   RelationEpisode lost = episode(RelationKind::actuator, 1_joint, 3.0, 9.0);
   lost.share = 0.4;
   lost.share_explains = 0.9;
@@ -72,7 +72,7 @@ TEST(RelationFindings, ALossIsSaidWithItsShareAndALawWithWhereToLook) {
   EXPECT_NE(faults[1].next_check.find("the controller of joint 2"), std::string::npos);
 }
 
-TEST(RelationFindings, TheTorqueBalancesPartOfTheEvidenceIsSaid) {
+TEST(RelationFindings, TheEvidenceOfTheTorqueBalanceIsStated) {
   const RelationEpisode largest_mean = episode(RelationKind::actuator, 1_joint, 3.0, 3.2);
   JudgedStretch fault = judge_stretch(stretches_of({largest_mean}, TorqueMeaning::commanded)[0], nullptr);
   EXPECT_EQ(item(finding_of(largest_mean, fault, 9.0, model()), "motion"), nullptr);
@@ -85,21 +85,21 @@ TEST(RelationFindings, TheTorqueBalancesPartOfTheEvidenceIsSaid) {
   EXPECT_EQ(finding.end_s, 3.2);
 }
 
-TEST(RelationFindings, AJoltOfAnotherDriveMeanwhileFollowsFromIt) {
+TEST(RelationFindings, AShortDeviationOfAnotherDriveMeanwhileIsNotAFinding) {
   const auto faults = findings_of({episode(RelationKind::actuator, 1_joint, 4.0, 4.5),
                                    episode(RelationKind::actuator, 2_joint, 4.45, 4.5)});
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].label.joint, 1_joint);
 }
 
-TEST(RelationFindings, TwoDrivesThatStrayAtTheSameTimeAreTwoFindings) {
+TEST(RelationFindings, TwoDrivesThatDeviateAtTheSameTimeAreTwoFindings) {
   EXPECT_EQ(findings_of({episode(RelationKind::actuator, 1_joint, 4.0, 4.5),
                          episode(RelationKind::actuator, 2_joint, 4.1, 4.6)})
                 .size(),
             2u);
 }
 
-TEST(RelationFindings, PulsesInQuickSuccessionStaySingle) {
+TEST(RelationFindings, PulsesInQuickSuccessionStaySeparate) {
   auto faults = findings_of({episode(RelationKind::actuator, 1_joint, 3.0, 3.2),
                              episode(RelationKind::actuator, 1_joint, 3.6, 3.8)});
   EXPECT_EQ(merge_continued(std::move(faults)).size(), 2u);

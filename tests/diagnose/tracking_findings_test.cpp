@@ -50,7 +50,7 @@ TEST(TrackingFindings, PositionAndVelocityOfOneJointAreOneFinding) {
   EXPECT_EQ(faults[0].end_s, 7.0);
 }
 
-TEST(TrackingFindings, TwoJointsAreTwoAndLaterOnesStandAlone) {
+TEST(TrackingFindings, TwoJointsAndLaterEpisodesAreSeparateFindings) {
   EXPECT_EQ(tracking_findings(
                 {episode(Quantity::q, 1_joint, 4.0, 6.0), episode(Quantity::q, 2_joint, 4.0, 6.0)}, chain())
                 .size(),
@@ -61,7 +61,7 @@ TEST(TrackingFindings, TwoJointsAreTwoAndLaterOnesStandAlone) {
             2u);
 }
 
-TEST(TrackingFindings, AJointThatStandsStillIsLockedWhicheverSignalSaysSo) {
+TEST(TrackingFindings, AJointWhosePositionOrVelocityStandsStillIsLocked) {
   RelationEpisode still = episode(Quantity::dq, 1_joint, 4.2, 7.0);
   set_share(still.at_first, 0.95, 0.9);
   const auto faults = tracking_findings({episode(Quantity::q, 1_joint, 4.0, 6.0), still}, chain());
@@ -73,7 +73,7 @@ TEST(TrackingFindings, AJointThatStandsStillIsLockedWhicheverSignalSaysSo) {
   EXPECT_EQ(tracking_findings({frozen}, chain())[0].label.kind, FaultKind::locked);
 }
 
-TEST(TrackingFindings, AJointStandsStillOnlyWhileItsReferenceMoves) {
+TEST(TrackingFindings, AJointIsLockedOnlyIfItsReferenceMoves) {
   RelationEpisode frozen = episode(Quantity::q, 1_joint, 4.0, 6.0);
   frozen.at_first = sums(0.01, 0.6, 0.0);
   EXPECT_EQ(tracking_findings({frozen}, chain()).at(0).label.kind, FaultKind::unknown);
@@ -83,14 +83,14 @@ TEST(TrackingFindings, AJointStandsStillOnlyWhileItsReferenceMoves) {
   EXPECT_EQ(tracking_findings({stopped}, chain()).at(0).label.kind, FaultKind::unknown);
 }
 
-TEST(TrackingFindings, AJointAtRestWhoseReferenceIsAtRestIsNone) {
+TEST(TrackingFindings, AJointAtRestWhoseReferenceIsAtRestHasNoFinding) {
   RelationEpisode rest = episode(Quantity::dq, 1_joint, 4.0, 6.0);
   rest.at_first = sums(0.001, 0.6, 0.0);
   set_share(rest.at_first, 1.0, 1.0);
   EXPECT_TRUE(tracking_findings({rest}, chain()).empty());
 }
 
-TEST(TrackingFindings, UnitsAreThoseOfTheJoint) {
+TEST(TrackingFindings, UnitsFollowFromTheTypeOfTheJoint) {
   const auto faults = tracking_findings(
       {episode(Quantity::q, 2_joint, 4.0, 6.0), episode(Quantity::dq, 2_joint, 8.0, 9.0)}, chain());
   ASSERT_EQ(faults.size(), 2u);

@@ -72,7 +72,7 @@ FaultFinding sized(double times_least, double onset_s = 1.0) {
   return finding;
 }
 
-TEST(Verdict, AChangeBelowTheLeastSizeIsListedAndIsNoFault) {
+TEST(Verdict, AChangeBelowTheLeastSizeIsListedButIsNotAFault) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis = with_verdict(diagnosis, {sized(0.03)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
@@ -111,7 +111,7 @@ TEST(Verdict, ARobotFarBeyondItsNormalRangeIsNotCalledHealthy) {
   EXPECT_NE(diagnosis.verdict_reason.find("friction of joint 3 (+113 %"), std::string::npos);
 }
 
-TEST(Verdict, WhatIsBeyondItsNormalRangeIsSaidWithIt) {
+TEST(Verdict, TheReasonNamesAnEffectBeyondItsNormalRange) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.condition = {friction_of(1_joint, 50.0, {45.0, 55.0})};
   diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
@@ -132,7 +132,7 @@ TEST(Verdict, ALogThatCannotBeJudgedHasNoFaults) {
   }
 }
 
-TEST(Verdict, ALogThatIsMisreadHasNoFaultAndSaysWhy) {
+TEST(Verdict, AMisreadLogHasNoFaultAndItsReasonNamesTheCause) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.log.issues.add(make_issue(kMisreadLog, Severity::severe, "it looks as if q2 is in degrees"));
   diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1_joint, 1.0)}, kPeriod_s);
@@ -151,7 +151,7 @@ TEST(Verdict, ALogWhoseColumnsChangeHasNoFaultAndNamesTheRow) {
   EXPECT_TRUE(diagnosis.faults.empty());
 }
 
-TEST(Verdict, AScaledClockForbidsANamedFaultAndNoHealthyVerdict) {
+TEST(Verdict, AScaledClockForbidsANamedFaultButNotAHealthyVerdict) {
   for (const bool with_fault : {false, true}) {
     Diagnosis diagnosis = of_log(1000, 1000);
     diagnosis.log.issues.add(make_issue(kScaledMotion, Severity::warning, "the clock is scaled"));
@@ -186,7 +186,7 @@ TEST(MergeFaults, AFaultThatPausesIsOneFinding) {
   EXPECT_EQ(merged[1].label.joint, 1_joint);
 }
 
-TEST(MergeFaults, WhatBeginsAtTheSameJointWhileAFaultLastsIsAnotherFault) {
+TEST(MergeFaults, AFaultThatBeginsDuringAnotherAtTheSameJointIsSeparate) {
   EXPECT_EQ(merge_continued({fault(FaultKind::payload_change, 3_joint, 2.0, 9.0),
                              fault(FaultKind::torque_loss, 3_joint, 5.0, 9.0)})
                 .size(),
@@ -198,7 +198,7 @@ TEST(MergeFaults, WhatBeginsAtTheSameJointWhileAFaultLastsIsAnotherFault) {
       << "the load changes twice";
 }
 
-TEST(MergeFaults, APushIsPartOfAFaultWhereItEndsAndNotWhileItLasts) {
+TEST(MergeFaults, APushAtTheEndOfAFaultIsPartOfItButAPushDuringItIsNot) {
   const FaultFinding friction = fault(FaultKind::friction_increase, 2_joint, 1.0, 4.0);
   const auto ends = merge_continued({friction, fault(FaultKind::collision, 2_joint, 3.9, 4.4)});
   ASSERT_EQ(ends.size(), 1u);
@@ -206,13 +206,13 @@ TEST(MergeFaults, APushIsPartOfAFaultWhereItEndsAndNotWhileItLasts) {
   EXPECT_EQ(merge_continued({friction, fault(FaultKind::collision, 2_joint, 2.5, 2.6)}).size(), 2u);
 }
 
-TEST(MergeFaults, CollisionsPassAndStayApart) {
+TEST(MergeFaults, CollisionsStaySeparate) {
   const auto merged = merge_continued(
       {fault(FaultKind::collision, 2_joint, 1.0, 1.1), fault(FaultKind::collision, 2_joint, 3.0, 3.1)});
   EXPECT_EQ(merged.size(), 2u);
 }
 
-TEST(MergeFaults, APushThatAnUnknownDisturbanceFollowsIsItsBeginning) {
+TEST(MergeFaults, APushJustBeforeAnUnknownDisturbanceIsItsBeginning) {
   const auto merged = merge_continued(
       {fault(FaultKind::collision, 2_joint, 1.0, 1.1), fault(FaultKind::unknown, Joint(), 1.6, 5.0),
        fault(FaultKind::collision, 1_joint, 5.5, 5.6), fault(FaultKind::collision, 1_joint, 8.0, 8.1)});
@@ -223,7 +223,7 @@ TEST(MergeFaults, APushThatAnUnknownDisturbanceFollowsIsItsBeginning) {
   EXPECT_EQ(merged[1].label.kind, FaultKind::collision);
 }
 
-TEST(MergeFaults, WhatShakesBeforeALastingFaultIsItsOnset) {
+TEST(MergeFaults, AShortDisturbanceJustBeforeALastingFaultIsItsOnset) {
   FaultFinding shaking = fault(FaultKind::unknown, Joint(), 1.0, 1.3);
   shaking.could_also_be.emplace_back().label = {FaultKind::collision, 2_joint};
   const auto merged = merge_continued({shaking, fault(FaultKind::locked, 2_joint, 1.6, 9.0)});
@@ -239,13 +239,13 @@ TEST(MergeFaults, WhatShakesBeforeALastingFaultIsItsOnset) {
       << "nothing shakes that long";
 }
 
-TEST(MergeFaults, APushLongBeforeAnUnknownDisturbanceStays) {
+TEST(MergeFaults, APushLongBeforeAnUnknownDisturbanceStaysSeparate) {
   const auto merged = merge_continued(
       {fault(FaultKind::collision, 2_joint, 1.0, 1.1), fault(FaultKind::unknown, Joint(), 2.2, 5.0)});
   EXPECT_EQ(merged.size(), 2u);
 }
 
-TEST(Verdict, AModelThatSeesLittleCannotCallALogHealthy) {
+TEST(Verdict, AModelThatFindsFewFaultsCannotCallALogHealthy) {
   Diagnosis diagnosis;
   diagnosis.log.sample_period_s = kPeriod_s;
   diagnosis.log.rows_used = diagnosis.log.judgeable_rows = 1000;
@@ -256,7 +256,7 @@ TEST(Verdict, AModelThatSeesLittleCannotCallALogHealthy) {
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
-TEST(Verdict, ALogThatTheModelMissesManyTimesMoreOfIsNotCalledHealthy) {
+TEST(Verdict, ALogWithManyTimesLargerResidualsIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.roughness = {1.0, 2.4, 4.8};
   diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
@@ -290,14 +290,14 @@ TEST(Verdict, ALogInWhichNoJointMovesIsNotCalledHealthy) {
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
-TEST(Verdict, AFaultStandsInARoughLog) {
+TEST(Verdict, AFaultIsReportedDespiteLargeResiduals) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.roughness = {9.0};
   diagnosis = with_verdict(diagnosis, {fault(FaultKind::locked, 1_joint, 2.0)}, kPeriod_s);
   EXPECT_EQ(diagnosis.verdict, Verdict::faulty);
 }
 
-TEST(Verdict, AMomentThatNoFaultFreeRobotShowsIsNotCalledHealthy) {
+TEST(Verdict, ALogWithAnExtremeResidualPeakIsNotCalledHealthy) {
   Diagnosis diagnosis = of_log(1000, 1000);
   diagnosis.residuals = {{1_joint, 1.1, 55.0, 3.0}, {2_joint, 4.4, 276.0, 12.22}};
   diagnosis = with_verdict(diagnosis, {}, kPeriod_s);
@@ -308,7 +308,7 @@ TEST(Verdict, AMomentThatNoFaultFreeRobotShowsIsNotCalledHealthy) {
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
 }
 
-TEST(Verdict, AJointThatWasNotJudgedForLongForbidsHealthyAndStandsInTheReason) {
+TEST(Verdict, ALongUnjudgedStretchForbidsHealthyAndIsNamedInTheReason) {
   Diagnosis diagnosis = of_log(1000, 700);
   diagnosis.log.end_s = 10.0;
   diagnosis.log.unjudged = {{2_joint, 7.0, 10.0, false, true}, {1_joint, 3.0, 4.0, true, false}};
@@ -321,7 +321,7 @@ TEST(Verdict, AJointThatWasNotJudgedForLongForbidsHealthyAndStandsInTheReason) {
       "joint is not judged for longer than 0.5 s, in more than a quarter of 5 s, or at the end");
 }
 
-TEST(Verdict, SpeaksOfTheWholeLogOnlyWhereAllOfItWasJudged) {
+TEST(Verdict, NamesTheWholeLogOnlyIfAllOfItWasJudged) {
   Diagnosis whole = of_log(1000, 1000), lost = of_log(1000, 1000), one_run = of_log(1000, 1000);
   whole = with_verdict(whole, {}, kPeriod_s);
   EXPECT_EQ(whole.verdict_reason, "the identified robot explains the whole log");

@@ -58,7 +58,7 @@ TEST(DayRipples, TwoRipplesOfAJointAreOneEffect) {
   EXPECT_LT(both.loudness[1], kLoud);
 }
 
-TEST(DayRipples, ASlowRippleOfASlideIsFoundSinceNothingElseDependsOnItsPosition) {
+TEST(DayRipples, ASlowRippleOfASlidingJointIsFound) {
   const ExplainedLog log =
       explained(with_ripple(simulate_closed_form(of_day(0), run_of(23)), 3_joint, 80.0, 0.6));
   ASSERT_NE(ripple_of(log, 3_joint), nullptr);
@@ -81,7 +81,7 @@ TEST(DayRipples, ARippleThatBeginsInTheLogIsAFault) {
   EXPECT_EQ(ripple_of(log, 2_joint), nullptr);
 }
 
-TEST(DayRipples, AHealthyLogHasNone) {
+TEST(DayRipples, AHealthyLogHasNoRipple) {
   EXPECT_FALSE(with_ripples_of_day(on_grid(simulate_closed_form(of_day(2), run_of(21))), scara_model()));
 }
 

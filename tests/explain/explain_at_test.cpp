@@ -30,7 +30,7 @@ TEST(ExplainAt, AHealthyLogHasNoFaultAtAnyTime) {
     EXPECT_FALSE(explain_at(log, model(), onset_s, kNeverEnds)) << onset_s;
 }
 
-TEST(ExplainAt, AFalseReadingIsNamedWithItsSize) {
+TEST(ExplainAt, AFalsePositionIsNamedWithItsSize) {
   const auto bias = explain_at(on_grid(with_reading(0.05, 0.0)), model(), kOnset_s, kNeverEnds);
   ASSERT_TRUE(bias);
   EXPECT_EQ(bias->label(), (FaultLabel{FaultKind::sensor_bias, 2_joint}));
@@ -45,7 +45,7 @@ TEST(ExplainAt, ADriftThatTheVelocityDoesNotShowIsNamed) {
   EXPECT_NEAR(drift->claim.size[0], 0.05, 0.005);
 }
 
-TEST(ExplainAt, EveryLabelHasAScoreBestFirst) {
+TEST(ExplainAt, EveryLabelHasAScoreAndTheBestComesFirst) {
   const auto bias = explain_at(on_grid(with_reading(0.05, 0.0)), model(), kOnset_s, kNeverEnds);
   ASSERT_TRUE(bias);
   EXPECT_GT(bias->scores.size(), 15u);
@@ -54,7 +54,7 @@ TEST(ExplainAt, EveryLabelHasAScoreBestFirst) {
   EXPECT_EQ(bias->scores.front().label(), bias->label());
 }
 
-TEST(ExplainAt, ATorqueOffsetIsToldWithItsSign) {
+TEST(ExplainAt, ATorqueOffsetIsNamedWithItsSign) {
   Log log = simulate_closed_form(testing::of_day(1), testing::run_of(22));
   for (int k = 0; k < log.rows(); ++k)
     if (log.time[k] >= kOnset_s) log.tau[0][k] += 1.5;

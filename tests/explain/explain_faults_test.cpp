@@ -38,7 +38,7 @@ std::string said(const std::vector<ExplainedFault>& faults) {
   return out;
 }
 
-TEST(ExplainFaults, AHealthyLogHasNone) {
+TEST(ExplainFaults, AHealthyLogHasNoFault) {
   EXPECT_TRUE(faults_of(simulate_closed_form(of_day(2), run_of(21))).empty());
 }
 
@@ -62,7 +62,7 @@ TEST(ExplainFaults, ADayOfMoreFrictionInOneDirectionIsHealthy) {
   }
 }
 
-TEST(ExplainFaults, TheDayOfALogHasNoGainOfAnAxisThatLiftsItsOwnWeight) {
+TEST(ExplainFaults, AnAxisThatLiftsItsOwnWeightHasNoTorqueGainOfTheDay) {
   const ExplainedLog log = explain_faults(on_grid(simulate_closed_form(of_day(2), run_of(21))), scara_model(),
                                           evidence_limits({}));
   const auto listed = [&](DayEffectKind kind, Joint joint) {
@@ -93,7 +93,7 @@ bool names_both(const std::vector<ExplainedFault>& faults) {
 }
 
 // In the other motions one of them explains most of both; why is not known.
-TEST(ExplainFaults, TwoFaultsThatBeginAtOnceMayBothBeFound) {
+TEST(ExplainFaults, TwoSimultaneousFaultsAreBothFoundInSomeMotions) {
   int both = 0;
   for (std::uint64_t seed = 23; seed < 31; ++seed) {
     const Log one = with_loss(simulate_closed_form(of_day(0), run_of(seed)), 2_joint, 0.4, 4.0);
@@ -102,7 +102,7 @@ TEST(ExplainFaults, TwoFaultsThatBeginAtOnceMayBothBeFound) {
   EXPECT_GE(both, 3);
 }
 
-TEST(ExplainFaults, AFaultIsFoundBehindAnotherOne) {
+TEST(ExplainFaults, ASecondFaultIsFoundAfterAFirst) {
   Log log = with_loss(simulate_closed_form(of_day(0), run_of(24)), 1_joint, 0.3, 2.5);
   log = changed(std::move(log), 5.0, kNeverEnds, [](Log& l, int k) { l.q[1][k] += 0.05; });
   const auto faults = faults_of(std::move(log));
@@ -112,7 +112,7 @@ TEST(ExplainFaults, AFaultIsFoundBehindAnotherOne) {
   EXPECT_NEAR(faults[1].claim.onset_s, 5.0, 0.02);
 }
 
-TEST(ExplainFaults, ALostTorqueThatComesTwiceIsTwoFaults) {
+TEST(ExplainFaults, ATorqueLossThatOccursTwiceIsTwoFaults) {
   constexpr double kLasts_s = 1.5;
   for (const std::uint64_t seed : {25, 26, 27, 28}) {
     ClosedFormRun run = run_of(seed);
@@ -132,7 +132,7 @@ TEST(ExplainFaults, ALostTorqueThatComesTwiceIsTwoFaults) {
   }
 }
 
-TEST(ExplainFaults, ALostTorqueThatIsGoneForASecondIsTwoFaults) {
+TEST(ExplainFaults, ATorqueLossThatPausesForASecondIsTwoFaults) {
   for (const std::uint64_t seed : {26, 28, 29, 30}) {
     const auto faults = faults_of(with_loss_but_for_a_second(seed));
     ASSERT_EQ(faults.size(), 2u) << said(faults);
@@ -144,7 +144,7 @@ TEST(ExplainFaults, ALostTorqueThatIsGoneForASecondIsTwoFaults) {
   }
 }
 
-TEST(ExplainFaults, AFalsePositionThatComesTwiceIsTwoFaults) {
+TEST(ExplainFaults, AFalsePositionThatOccursTwiceIsTwoFaults) {
   const auto shift = [](Log& l, int k) { l.q[1][k] += 0.05; };
   Log log = changed(simulate_closed_form(of_day(0), run_of(25)), 2.0, 3.0, shift);
   const auto faults = faults_of(changed(std::move(log), 5.0, 6.0, shift));
@@ -158,7 +158,7 @@ TEST(ExplainFaults, AFalsePositionThatComesTwiceIsTwoFaults) {
   }
 }
 
-TEST(ExplainFaults, AnEncoderThatJumpsOnInOneDirectionIsOneFaultOfNoKind) {
+TEST(ExplainFaults, AnEncoderThatJumpsRepeatedlyInOneDirectionIsOneUnknownFault) {
   Log log = simulate_closed_form(of_day(0), run_of(26));
   for (const double at_s : {3.0, 4.5, 6.0})
     log = changed(std::move(log), at_s, kNeverEnds, [](Log& l, int k) { l.q[1][k] += 0.04; });
@@ -178,7 +178,7 @@ Log with_more_friction(const std::function<bool(double, double)>& is_worn) {
   });
 }
 
-TEST(ExplainFaults, FrictionInARangeOfPositionsIsOneFaultOfNoKind) {
+TEST(ExplainFaults, MoreFrictionInARangeOfPositionsIsOneUnknownFault) {
   const auto faults =
       faults_of(with_more_friction([](double t, double q) { return t > 2.0 && std::abs(q) < 0.3; }));
   ASSERT_EQ(faults.size(), 1u) << said(faults);
@@ -186,7 +186,7 @@ TEST(ExplainFaults, FrictionInARangeOfPositionsIsOneFaultOfNoKind) {
   EXPECT_EQ(faults[0].claim.end_s, kNeverEnds);
 }
 
-TEST(ExplainFaults, FrictionThatComesTwiceAtAnyPositionIsTwoFaults) {
+TEST(ExplainFaults, MoreFrictionThatOccursTwiceAtAnyPositionIsTwoFaults) {
   const auto faults = faults_of(
       with_more_friction([](double t, double) { return (t > 2.0 && t < 3.5) || (t > 5.0 && t < 6.5); }));
   ASSERT_EQ(faults.size(), 2u) << said(faults);
@@ -194,7 +194,7 @@ TEST(ExplainFaults, FrictionThatComesTwiceAtAnyPositionIsTwoFaults) {
     EXPECT_EQ(fault.label(), (FaultLabel{FaultKind::friction_increase, 2_joint}));
 }
 
-TEST(LogFit, ALargeFaultDoesNotBendTheDayToWhatNoDayIs) {
+TEST(LogFit, ALargeFaultDoesNotDistortTheEffectsOfTheDayBeyondTheirBound) {
   const LogFit fit = fit_of(changed(simulate_closed_form(of_day(0), run_of(24)), 5.0, kNeverEnds,
                                     [](Log& l, int k) { l.tau[1][k] += 60.0 * std::sin(5.0 * l.time[k]); }));
   const Eigen::VectorXd& variance = scara_model().day_variance;
@@ -202,7 +202,7 @@ TEST(LogFit, ALargeFaultDoesNotBendTheDayToWhatNoDayIs) {
   EXPECT_LT(stds.cwiseAbs().maxCoeff(), 30.01);
 }
 
-TEST(LogFit, BesideALockedSlideTheOtherJointsShowWhatIsCarried) {
+TEST(LogFit, TheOtherJointsShowAWorkPieceWhileTheSlideIsLocked) {
   ClosedFormRun run = run_of(28);
   run.carries_from_s = 4.5;
   run.carries_to_s = 6.0;

@@ -51,7 +51,7 @@ Log fine_day(int day, std::uint64_t seed) {
   return simulate_closed_form(of_day(day), run);
 }
 
-TEST(FitDays, TorquesOfSamplesThatAreAveragedActInTime) {
+TEST(FitDays, AFaultInAveragedSamplesIsFoundWithItsOnsetAndSize) {
   const BalanceModel model = learned_from({fine_day(0, 1), fine_day(1, 2), fine_day(2, 3)}).model;
   const ClosedFormScara truth;
   const std::vector<double> base = {truth.a(), truth.b(), truth.c(), truth.m3};
@@ -75,7 +75,7 @@ TEST(FitDays, TheFrictionOfADayIsAnEffectOfTheDay) {
   for (int j = 0; j < 3; ++j) EXPECT_NEAR(fit.healthy().day[day.friction(j)], 0.04, 0.03) << j;
 }
 
-TEST(FitDays, TheRobotWithoutADayKnowsNothingOfIt) {
+TEST(FitDays, TheRobotFittedWithoutADayDoesNotDependOnThatDay) {
   std::vector<Log> days;
   for (int day = 0; day < 4; ++day) {
     ClosedFormScara robot = of_day(day);
@@ -98,7 +98,7 @@ TEST(ExplainLog, AHealthyDayGivesNoEvidence) {
   EXPECT_FALSE(decide_log(e, limits()));
 }
 
-TEST(ExplainLog, ATorqueThatIsLostIsFoundWithJointOnsetAndSize) {
+TEST(ExplainLog, ATorqueLossIsFoundWithJointOnsetAndSize) {
   Log log = simulate_closed_form(of_day(0), run_of(12));
   for (int k = 0; k < log.rows(); ++k)
     if (log.time[k] >= 4.0) log.tau[1][k] /= 0.7;  // 30 % of it do not reach the joint
@@ -112,7 +112,7 @@ TEST(ExplainLog, ATorqueThatIsLostIsFoundWithJointOnsetAndSize) {
   EXPECT_LT(fault->alarm_s, 5.0);
 }
 
-TEST(ExplainLog, ATorqueThatIsLostBendsNoGear) {
+TEST(ExplainLog, TorqueThatIsLostDoesNotDeflectAGear) {
   BalanceModel soft = scara_model();
   const int spring = soft.layout().spring(1);
   soft.theta[spring] = 2e-4;  // s^2 kg m^2 / (N m)
@@ -134,7 +134,7 @@ TEST(ExplainLog, ATorqueThatIsLostBendsNoGear) {
   }
 }
 
-TEST(ExplainLog, APositionThatIsOffIsFoundWithItsSize) {
+TEST(ExplainLog, AFalsePositionIsFoundWithItsSize) {
   Log log = simulate_closed_form(of_day(0), run_of(13));
   for (int k = 0; k < log.rows(); ++k)
     if (log.time[k] >= 3.0) log.q[1][k] += 0.05;
@@ -146,7 +146,7 @@ TEST(ExplainLog, APositionThatIsOffIsFoundWithItsSize) {
   EXPECT_NEAR(fault->claim.onset_s, 3.0, 0.01);
 }
 
-TEST(ExplainLog, APositionThatJumpsIsFoundWhereTheVelocityIsComputedFromIt) {
+TEST(ExplainLog, AJumpOfAPositionIsFoundIfTheVelocityIsComputedFromIt) {
   Log log = simulate_closed_form(of_day(0), run_of(13));
   double filtered = 0.0;  // what the jump adds to a difference of the positions behind a filter of 40 Hz
   for (int k = 0; k < log.rows(); ++k) {
@@ -163,7 +163,7 @@ TEST(ExplainLog, APositionThatJumpsIsFoundWhereTheVelocityIsComputedFromIt) {
   EXPECT_FALSE(fault->claim.velocity_is_true);
 }
 
-TEST(ExplainLog, AForceOfAMomentIsACollision) {
+TEST(ExplainLog, AShortForceIsACollision) {
   Log log = simulate_closed_form(of_day(0), run_of(14));
   for (int k = 0; k < log.rows(); ++k)
     if (log.time[k] >= 5.0 && log.time[k] < 5.1) log.tau[1][k] -= 4.0;  // what pushes spares the drive
@@ -186,7 +186,7 @@ TEST(ExplainLog, AMassOnAnInnerLinkIsNamedWithTheLinkAndItsSize) {
   EXPECT_NEAR(fault->claim.onset_s, 4.0, 0.02);
 }
 
-TEST(ExplainLog, WhatIsLikeNoKindIsUnknown) {
+TEST(ExplainLog, AFaultOfNoKnownKindIsUnknown) {
   Log log = simulate_closed_form(of_day(0), run_of(15));
   for (int k = 0; k < log.rows(); ++k)
     if (log.time[k] >= 4.0) log.tau[1][k] += 4.0 * std::sin(9.0 * log.time[k]) * std::sin(23.0 * log.time[k]);
@@ -225,14 +225,14 @@ TEST(ExplainLog, AVibrationThatNoKnownFaultExplainsAtAllIsUnknown) {
   EXPECT_GT(fault->evidence, fault->limit);
 }
 
-TEST(ExplainLog, TheUnknownFaultOfAHealthyLogSetsItsLimit) {
+TEST(ExplainLog, TheUnknownFaultOfAHealthyLogSetsTheLimitOfUnknownFaults) {
   LogExplanation loud;
   loud.free_gain = 150.0;
   EXPECT_EQ(evidence_limits({loud}).of(FaultKind::unknown), 450.0);
   EXPECT_EQ(evidence_limits({loud}).of(FaultKind::collision), 100.0);
 }
 
-TEST(ExplainLog, FrictionThatCreepsIsMoreFriction) {
+TEST(ExplainLog, FrictionThatGrowsSlowlyIsAFrictionIncrease) {
   Log log = simulate_closed_form(of_day(0), run_of(17));
   for (int k = 0; k < log.rows(); ++k)  // what the drive must give beyond that of the healthy joint
     if (log.time[k] >= 3.0) log.tau[1][k] += (log.time[k] - 3.0) * 0.4 * std::tanh(log.dq[1][k] / 0.05);
@@ -276,7 +276,7 @@ TEST(ExplainLog, AConstantTorqueOnOneJointIsAnOffsetIfItLasts) {
   EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_sensor_error, 2_joint}));
 }
 
-TEST(ExplainLog, ADriveThatClipsIsUnknown) {
+TEST(ExplainLog, ADriveThatLimitsItsTorqueIsAnUnknownFault) {
   ClosedFormRun run = run_of(22);
   run.clips_from_s = 3.0;
   run.clip[1] = 4.0;
@@ -298,7 +298,7 @@ Log with_lock(std::uint64_t seed) {
   return log;
 }
 
-TEST(ExplainLog, AHaltThatShakesTheOtherJointsIsOneLock) {
+TEST(ExplainLog, ALockThatShakesTheOtherJointsIsOneFault) {
   MemorySource source(with_lock(23));
   const ExplainedLog log =
       explain_faults(uniform_log(source, kExplainedPeriod_s), scara_model(), limits(), {});
@@ -307,7 +307,7 @@ TEST(ExplainLog, AHaltThatShakesTheOtherJointsIsOneLock) {
   EXPECT_NEAR(log.faults[0].claim.onset_s, 4.0, 0.05);
 }
 
-TEST(ExplainLog, AnEncoderThatReadsAVelocityAnewIsNotStuck) {
+TEST(ExplainLog, ALockedJointWithACoarseEncoderIsNotAStuckEncoder) {
   Log log = with_lock(24);
   for (int k = 1001; k < log.rows(); ++k) log.q[1][k] = log.q[1][1000];  // too coarse to show any noise
   const auto fault = decided(fit_of(std::move(log)));
@@ -315,7 +315,7 @@ TEST(ExplainLog, AnEncoderThatReadsAVelocityAnewIsNotStuck) {
   EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::locked, 2_joint}));
 }
 
-TEST(ExplainLog, AVelocityThatFadesInAFilterBelongsToAStuckEncoder) {
+TEST(ExplainLog, AFilteredVelocityThatDecaysBelongsToAStuckEncoder) {
   Log log = simulate_closed_form(of_day(0), run_of(26));
   const double speed = log.dq[1][1000];
   for (int k = 1001; k < log.rows(); ++k) {
@@ -327,7 +327,7 @@ TEST(ExplainLog, AVelocityThatFadesInAFilterBelongsToAStuckEncoder) {
   EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::stuck_encoder, 2_joint}));
 }
 
-TEST(ExplainLog, APositionOfASlideThatJumpsContradictsItsVelocity) {
+TEST(ExplainLog, AJumpOfASlidingPositionIsFoundByItsVelocity) {
   Log log = simulate_closed_form(of_day(0), run_of(25));
   for (int k = 0; k < log.rows(); ++k)
     if (log.time[k] >= 3.0) log.q[2][k] += 0.0006;  // the torque hardly shows it: nothing depends on it
@@ -361,7 +361,7 @@ TEST(Misfit, DoesNotDependOnWhichSideOfARowAFaultEnds) {
   }
 }
 
-TEST(ExplainLog, AHaltThatLeavesASmallShareOfAGreatDealSuffices) {
+TEST(ExplainLog, ALockThatLeavesASmallShareOfALargeResidualSuffices) {
   ExplainedFault fault;
   fault.claim.kind = FaultKind::locked;
   fault.misfit = 5000.0;

@@ -32,7 +32,7 @@ TEST(FaultSpans, AreThoseInWhichTheLogShowsTheFault) {
   }
 }
 
-TEST(FaultSpans, AStrongFaultDoesNotBendTheEffectsOfTheDay) {
+TEST(FaultSpans, AStrongFaultDoesNotDistortTheEffectsOfTheDay) {
   ClosedFormRun run = run_of(27);
   run.duration_s = 10.0;
   Log log = with_loss(simulate_closed_form(of_day(0), run), 2_joint, 0.98, 2.2, 4.2);
@@ -45,7 +45,7 @@ TEST(FaultSpans, AStrongFaultDoesNotBendTheEffectsOfTheDay) {
   EXPECT_NEAR(spans[1].onset_s, 6.2, 0.05);
 }
 
-TEST(FaultSpans, AFaultFromTheFirstRowOnBeginsBehindTheLead) {
+TEST(FaultSpans, AFaultFromTheFirstRowOnBeginsAfterTheLeadTime) {
   const LogFit fit = fit_of(with_loss(simulate_closed_form(of_day(0), run_of(26)), 1_joint, 0.5, 0.0, 4.0));
   const std::vector<FaultClaim> spans =
       fault_spans(fit, {FaultKind::torque_loss, 1_joint, 0.6}, free_form(fit));
@@ -53,12 +53,12 @@ TEST(FaultSpans, AFaultFromTheFirstRowOnBeginsBehindTheLead) {
   EXPECT_NEAR(spans[0].onset_s, kLead_s, 0.1);
 }
 
-TEST(FaultSpans, AFaultThatAHealthyLogDoesNotShowHasNone) {
+TEST(FaultSpans, AFaultThatTheLogDoesNotShowHasNoSpan) {
   const LogFit fit = fit_of(simulate_closed_form(of_day(0), run_of(26)));
   EXPECT_TRUE(fault_spans(fit, {FaultKind::torque_loss, 1_joint, 3.5}, free_form(fit)).empty());
 }
 
-TEST(FaultSpans, AFaultThatIsNotLinearHasNone) {
+TEST(FaultSpans, ANonlinearFaultHasNoSpan) {
   const LogFit fit = fit_of(with_loss_but_for_a_second(26));
   EXPECT_TRUE(fault_spans(fit, {FaultKind::locked, 1_joint, 3.5}, free_form(fit)).empty());
 }
@@ -88,17 +88,17 @@ WithAndWithout gone_for(double gone_s, double length_s) {
   return out;
 }
 
-TEST(GoneFrom, AFaultThatEveryRowShowsLasts) {
+TEST(AbsentFrom, AFaultThatEveryRowShowsLasts) {
   EXPECT_FALSE(absent_from_s(fit(), gone_for(5.0, 0.0), kOnset_s));
 }
 
-TEST(GoneFrom, AFaultThatIsGoneForAWhileEndsThere) {
+TEST(AbsentFrom, AFaultThatPausesForAWhileEndsThere) {
   const auto end_s = absent_from_s(fit(), gone_for(5.0, 0.6), kOnset_s);
   ASSERT_TRUE(end_s);
   EXPECT_NEAR(*end_s, 5.0, 0.05);
 }
 
-TEST(GoneFrom, AMomentThatLooksHealthyIsNoEnd) {
+TEST(AbsentFrom, AShortPauseIsNotTheEndOfAFault) {
   EXPECT_FALSE(absent_from_s(fit(), gone_for(5.0, 0.15), kOnset_s));
 }
 

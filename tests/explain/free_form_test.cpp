@@ -37,7 +37,7 @@ double rms_after(const LogFit& fit) {
   return std::sqrt(sum / count);
 }
 
-TEST(FirstChange, IsWhereOneJointAloneIsExplainedNoLonger) {
+TEST(FirstChange, IsTheTimeFromWhichOneJointIsUnexplained) {
   const LogFit fit = fit_with_torque(0.07);
   EXPECT_GT(rms_after(fit), 1.8);
   EXPECT_LT(rms_after(fit), 2.6);
@@ -45,7 +45,7 @@ TEST(FirstChange, IsWhereOneJointAloneIsExplainedNoLonger) {
   EXPECT_GT(free_form(fit).onset_s, kBegins_s + 1.0);
 }
 
-TEST(FirstChange, IsWhereOtherFrictionExplainsTheRowsOfAJoint) {
+TEST(FirstChange, IsTheTimeFromWhichOtherFrictionExplainsAJoint) {
   Log log = simulate_closed_form(ClosedFormScara{}, run_of(21));
   for (int k = 0; k < log.rows(); ++k)
     if (log.time[k] > kBegins_s) log.tau[kJoint][k] += 0.05 * std::tanh(log.dq[kJoint][k] / 0.05);
@@ -59,7 +59,7 @@ TEST(FirstChange, IsTheEndOfAHealthyLog) {
   EXPECT_GT(first_change(fit).onset_s, 7.0);
 }
 
-TEST(OwnNoise, IsNotThatOfAFaultOfOneJoint) {
+TEST(NoiseOfALog, ExcludesAFaultOfOneJoint) {
   const LogFit healthy = fit_with_torque(0.0), faulty = fit_with_torque(0.09);
   const double usual = autocovariance(healthy.noise().joint[kJoint])[0];
   EXPECT_LT(autocovariance(faulty.noise().joint[kJoint])[0], 1.2 * usual);

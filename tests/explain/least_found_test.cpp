@@ -36,33 +36,33 @@ int found_of_ten(const Change& change) {
   return found;
 }
 
-TEST(LeastFound, ATorqueOffsetOfTwiceThatSizeIsFoundAndAHalfOfItIsNot) {
+TEST(DetectableSize, ATorqueOffsetOfTwiceTheSizeIsFoundAndHalfTheSizeIsNot) {
   const double size = least_of({FaultKind::torque_sensor_error, 1_joint});
   const auto offset = [](double nm) { return [nm](Log& log, int k) { log.tau[0][k] += nm; }; };
   EXPECT_GE(found_of_ten(offset(2.0 * size)), 8);
   EXPECT_LE(found_of_ten(offset(0.5 * size)), 2);
 }
 
-TEST(LeastFound, AShiftedPositionOfTwiceThatSizeIsFoundAndATenthOfItIsNot) {
+TEST(DetectableSize, AShiftedPositionOfTwiceTheSizeIsFoundAndATenthIsNot) {
   const double size = least_of({FaultKind::sensor_bias, 2_joint});
   const auto shifted = [](double rad) { return [rad](Log& log, int k) { log.q[1][k] += rad; }; };
   EXPECT_GE(found_of_ten(shifted(2.0 * size)), 8);
   EXPECT_LE(found_of_ten(shifted(0.1 * size)), 2);
 }
 
-TEST(LeastFound, WhatNoCandidateOfTheSearchShowsIsFoundByItsExactEvidence) {
+TEST(DetectableSize, AnOffsetWithoutACandidateIsFoundByItsExactEvidence) {
   // The noise of these rows hardly wanders, so that white noise hides an offset that lasts.
   const double size = least_of({FaultKind::torque_sensor_error, 1_joint});
   EXPECT_GE(found_of_ten([size](Log& log, int k) { log.tau[0][k] += 1.8 * size; }), 10);
 }
 
-TEST(LeastFound, ALossBelowTheGainOfAnotherDayIsNone) {
+TEST(DetectableSize, OfATorqueLossIsNotBelowTheGainOfAnotherDay) {
   EXPECT_GE(least_of({FaultKind::torque_loss, 1_joint}), kLeastLoss);
 }
 
-TEST(LeastFound, AKindWithoutASizeHasNone) { EXPECT_EQ(least_of({FaultKind::locked, 1_joint}), 0.0); }
+TEST(DetectableSize, IsZeroForAKindWithoutSize) { EXPECT_EQ(least_of({FaultKind::locked, 1_joint}), 0.0); }
 
-TEST(LeastFound, TheSizeFollowsFromCovarianceAndPrior) {
+TEST(DetectableSize, FollowsFromCovarianceAndPrior) {
   // A prior variance of 4 and rows that leave .01: the information is 100 - .25.
   const Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(1, 1, 0.01);
   const Eigen::VectorXd variance = Eigen::VectorXd::Constant(1, 4.0), one = Eigen::VectorXd::Ones(1);

@@ -29,7 +29,7 @@ Log with_cogging(Log log) {
   return log;
 }
 
-TEST(ExplainLog, WhatALogLeavesFromItsFirstRowOnIsItsNoise) {
+TEST(ExplainLog, ResidualsFromTheFirstRowOnAreNoiseOfTheLog) {
   const LogFit fit = fit_of(with_cogging(simulate_closed_form(of_day(0), run_of(19))));
   const double usual = autocovariance(scara_model().noise.joint[1])[0];
   EXPECT_GT(autocovariance(fit.noise().joint[1])[0], 4.0 * usual);
@@ -47,7 +47,7 @@ TEST(ExplainLog, LoadFrictionThatNoHealthyLogHadIsAnEffectOfTheDay) {
   }
 }
 
-TEST(ExplainLog, AFaultThatBeginsSoonAfterTheFirstMotionIsNoNoise) {
+TEST(ExplainLog, AFaultThatBeginsSoonAfterTheFirstMotionIsNotNoise) {
   Log log = simulate_closed_form(of_day(0), run_of(27));
   for (int k = 0; k < log.rows(); ++k)
     if (log.time[k] > 1.8) log.tau[2][k] *= 40.0;
@@ -55,7 +55,7 @@ TEST(ExplainLog, AFaultThatBeginsSoonAfterTheFirstMotionIsNoNoise) {
   EXPECT_LT(fit.noise().joint[2].innovation, 2.0 * scara_model().noise.joint[2].innovation);
 }
 
-TEST(ExplainLog, AFaultOfALoudLogIsFound) {
+TEST(ExplainLog, AFaultInANoisyLogIsFound) {
   Log log = with_cogging(simulate_closed_form(of_day(0), run_of(20)));
   for (int k = 0; k < log.rows(); ++k)
     if (log.time[k] >= 4.0) log.tau[0][k] /= 0.5;
@@ -65,7 +65,7 @@ TEST(ExplainLog, AFaultOfALoudLogIsFound) {
   EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::torque_loss, 1_joint}));
 }
 
-TEST(ExplainLog, AFaultSoonAfterTheStartIsNoNoiseOfItsLog) {
+TEST(ExplainLog, AFaultSoonAfterTheStartIsNotNoiseOfItsLog) {
   ClosedFormRun run = run_of(31);
   run.loaded_from_s = 1.5;
   run.load_kg = 0.05;
@@ -80,7 +80,7 @@ TEST(ExplainLog, AFaultSoonAfterTheStartIsNoNoiseOfItsLog) {
   EXPECT_EQ(own.fit.noise(), scara_model().noise);
 }
 
-TEST(ExplainLog, AQuietLogHasTheNoiseOfTheHealthyLogs) {
+TEST(ExplainLog, ALogWithLittleNoiseHasTheNoiseOfTheHealthyLogs) {
   const LogFit fit = fit_of(simulate_closed_form(of_day(1), run_of(21)));
   for (int j = 0; j < 3; ++j)
     EXPECT_LT(autocovariance(fit.noise().joint[j])[0], 1.5 * autocovariance(scara_model().noise.joint[j])[0]);

@@ -44,7 +44,7 @@ FaultLabel label_of(const SignalStretch& stretch, const LogFit* fit = nullptr) {
   return judge_stretch(stretch, fit).fault.label();
 }
 
-TEST(SignalStretch, AShareThatIsMissingIsALossIfAnOffsetExplainsLess) {
+TEST(SignalStretch, AMissingShareOfTheTorqueIsALossIfAnOffsetExplainsLess) {
   SignalStretch lost = drive(3.0, kNeverEnds);
   lost.loss = 0.4;
   lost.loss_explains = 0.9;
@@ -70,7 +70,7 @@ TEST(SignalStretch, TheTorqueBalanceAddsItsEvidenceForALoss) {
   EXPECT_NEAR(both.fault.claim.size[0], 0.3, 0.03);
 }
 
-TEST(SignalStretch, ALossThatTheTorqueBalanceContradictsIsNoneOfTheDrive) {
+TEST(SignalStretch, ALossThatTheTorqueBalanceContradictsIsNotALossOfTheDrive) {
   SignalStretch lost = drive(4.0, kNeverEnds);
   lost.loss = 0.3;
   lost.loss_explains = 0.95;
@@ -107,7 +107,7 @@ TEST(SignalStretch, ASensorWithAnOffsetShowsInTheBalanceOfItsMeasurements) {
   EXPECT_TRUE(judge_stretch(off, &is_healthy).fault.could_also_be.empty()) << "an offset of a sensor lasts";
 }
 
-TEST(SignalStretch, ALawThatDoesNotHoldForLongAfterAFaultIsTheControllersResponse) {
+TEST(SignalStretch, ALongDeviationFromTheLawAfterAFaultIsTheControllersResponse) {
   const auto reported = [](const SignalStretch& stretch, const FaultClaim& fault) {
     return judged_stretches({stretch}, {}, {fault}, nullptr).size();
   };
@@ -137,7 +137,7 @@ ExplainedLog explained(Log log, std::vector<SignalStretch> begin) {
                         {.begin = std::move(begin)});
 }
 
-TEST(SignalStretch, ATorqueOfADriveThatTheBalanceShowsIsNoSecondFault) {
+TEST(SignalStretch, AFaultOfADriveThatTheTorqueBalanceShowsIsNotASecondFault) {
   ASSERT_FALSE(explained(pushed(43), {}).faults.empty());
   const ExplainedLog out = explained(pushed(43), {drive(4.0, 4.3)});
   EXPECT_TRUE(out.faults.empty());
@@ -146,7 +146,7 @@ TEST(SignalStretch, ATorqueOfADriveThatTheBalanceShowsIsNoSecondFault) {
   EXPECT_GT(out.stretches[0].in_balance, 50.0) << "both rows show it";
 }
 
-TEST(SignalStretch, AFurtherFaultIsFoundBesideADriveThatLasts) {
+TEST(SignalStretch, AFurtherFaultIsFoundDuringAFaultOfADrive) {
   for (const double end_s : {4.3, kNeverEnds}) {
     Log log = changed(healthy(44), 4.0, end_s, [](Log& l, int k) { l.tau[0][k] -= 8.0; });
     log = changed(std::move(log), 6.0, kNeverEnds, [](Log& l, int k) { l.q[1][k] += 0.05; });
@@ -174,7 +174,7 @@ SignalStretch loss(double onset_s, double end_s) {
   return out;
 }
 
-TEST(SignalStretch, ALossThatTheSignalsShowInPartsIsOne) {
+TEST(SignalStretch, ALossThatTheSignalsShowInPartsIsOneFault) {
   const LogFit lasts = fit_of(with_loss(healthy(47), 1_joint, 0.3, 3.0)),
                twice = fit_of(with_loss(with_loss(healthy(47), 1_joint, 0.3, 3.0, 4.0), 1_joint, 0.3, 6.0));
   const auto one = judged_stretches({loss(3.0, 4.0), loss(6.0, kNeverEnds)}, {}, {}, &lasts);
@@ -186,7 +186,7 @@ TEST(SignalStretch, ALossThatTheSignalsShowInPartsIsOne) {
       << "without a torque balance a second without a difference parts two faults";
 }
 
-TEST(SignalStretch, OnlyFaultsThatTheTorqueBalanceShowsAreInIt) {
+TEST(SignalStretch, OnlyFaultsThatTheTorqueBalanceShowsAreInItsClaims) {
   SignalStretch lost = loss(3.0, kNeverEnds);
   const LogFit loses = fit_of(with_loss(healthy(48), 1_joint, 0.3, 3.0));
   EXPECT_EQ(balance_claims({judge_stretch(lost, &loses)}).size(), 1u);

@@ -11,7 +11,7 @@
 namespace faultline {
 namespace {
 
-TEST(FaultCatalogue, NamesAreDifferentAndFoundAgain) {
+TEST(FaultCatalogue, NamesAreUniqueAndReadBack) {
   std::set<std::string> names;
   for (int k = 0; k < kFaultKinds; ++k) {
     const FaultKind kind = static_cast<FaultKind>(k);
@@ -32,7 +32,7 @@ TEST(FaultCatalogue, EverySizeOfASimulatedKindCanBeDrawn) {
   }
 }
 
-TEST(FaultCatalogue, WhatIsHiddenByTheTorqueChangesTheMotion) {
+TEST(FaultCatalogue, KindsThatTheMeasuredTorqueHidesActOnTheMotion) {
   for (int k = 0; k < kFaultKinds; ++k) {
     const FaultDescription& fault = describe(static_cast<FaultKind>(k));
     EXPECT_TRUE(!fault.hidden_by_measured_torque || fault.acts_on == FaultActsOn::motion) << fault.name;
@@ -44,7 +44,7 @@ std::string said(FaultKind kind, double first, double second, bool turns) {
   return size_text({kind, 2_joint}, {first, second}, turns);
 }
 
-TEST(SizeText, SaysSizesInTheUnitsOfTheJoint) {
+TEST(SizeText, StatesSizesInTheUnitsOfTheJoint) {
   EXPECT_EQ(said(FaultKind::torque_loss, 0.417, 0.0, true), "about 42 % of the torque is lost");
   EXPECT_EQ(said(FaultKind::sensor_bias, 0.0123456, 0.0, true), "the position reads 0.01235 rad too much");
   EXPECT_EQ(said(FaultKind::sensor_bias, -0.5, 0.0, false), "the position reads 0.5 m too little");
@@ -58,7 +58,7 @@ TEST(SizeText, SaysSizesInTheUnitsOfTheJoint) {
   EXPECT_EQ(said(FaultKind::collision, -0.25, 0.0, true), "the push had an impulse of -0.25 N m s");
 }
 
-TEST(SizeText, IsEmptyWhereNoSizeIsTold) {
+TEST(SizeText, IsEmptyForKindsWithoutSize) {
   for (const FaultKind kind : {FaultKind::none, FaultKind::free_swinging, FaultKind::locked,
                                FaultKind::stuck_encoder, FaultKind::unknown})
     EXPECT_EQ(said(kind, 1.0, 2.0, true), "") << to_string(kind);
@@ -70,7 +70,7 @@ TEST(UnitOf, ATurningJointHasAnglesAndASlidingOneLengths) {
   EXPECT_STREQ(unit_of(SizeMeasure::mass, true), unit_of(SizeMeasure::mass, false));
 }
 
-TEST(FaultLabels, AreEachKindAtEachJointAndThePayloadOfTheLinksWhereItShows) {
+TEST(FaultLabels, AreEachKindAtEachJointAndThePayloadOfTheLinksThatShowIt) {
   const auto labels = fault_labels(3, {1_joint, 3_joint}, false);
   EXPECT_EQ(labels.size(), 9u * 3u + 2u);
   const auto count = [&](FaultKind kind) {

@@ -22,7 +22,7 @@ TEST(FaultWords, EveryKindHasItsOwnWordsAndCheck) {
   EXPECT_EQ(checks.size(), static_cast<std::size_t>(kFaultKinds));
 }
 
-TEST(FaultWords, ALoadIsOfALinkAndEveryOtherFaultOfAJoint) {
+TEST(FaultWords, APayloadChangeNamesALinkAndEveryOtherFaultAJoint) {
   EXPECT_EQ(plain_words({FaultKind::payload_change, 2_joint}), "link 2 carries another load");
   EXPECT_EQ(plain_words({FaultKind::locked, 2_joint}), "joint 2 is locked");
 }

@@ -53,7 +53,7 @@ json reading_of(LogSource& source) {
 
 class CaseFile : public testing::TestWithParam<std::string> {};
 
-TEST_P(CaseFile, IsReadAsItsMakerKnows) {
+TEST_P(CaseFile, IsReadWithItsKnownContent) {
   const fs::path folder = fs::path(FAULTLINE_SOURCE_DIR) / "tests/formats/cases" / GetParam();
   fs::path input;
   for (const auto& entry : fs::directory_iterator(folder))

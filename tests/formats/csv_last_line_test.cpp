@@ -56,7 +56,7 @@ TEST(CsvLastLine, NoCutGivesAWrongNumber) {
   }
 }
 
-TEST(CsvLastLine, AWholeRowIsKeptWithANote) {
+TEST(CsvLastLine, ACompleteRowIsKeptWithANote) {
   for (const RowText& row : {formats()[0], formats()[3], formats()[6]}) {
     std::string text = table(row, 40);
     text.pop_back();
@@ -67,7 +67,7 @@ TEST(CsvLastLine, AWholeRowIsKeptWithANote) {
   }
 }
 
-TEST(CsvLastLine, ACutRowIsToldWithItsPlace) {
+TEST(CsvLastLine, ACutRowIsReportedWithItsPlace) {
   const auto [log, identity, issues] = read_csv("t,q1\n0,1.25\n1,1.50\n2,1.7");
   EXPECT_EQ(log.rows(), 2);
   ASSERT_NE(issues.find("truncated_last_line"), nullptr);
@@ -81,12 +81,12 @@ TEST(CsvLastLine, ACarriageReturnEndsTheLastValue) {
   EXPECT_EQ(log.q[0].back(), 1.7);
 }
 
-TEST(CsvLastLine, ValuesThatMayBeMissingMayBeMissingThereToo) {
+TEST(CsvLastLine, AnEmptyLastValueIsKeptOnlyIfAnEarlierRowHasOneToo) {
   EXPECT_EQ(read_csv("t,q1,x\n0,1,\n1,2,5\n2,3,").log.rows(), 3);
   EXPECT_EQ(read_csv("t,q1,x\n0,1,4\n1,2,5\n2,3,").log.rows(), 2) << "cut behind the separator";
 }
 
-TEST(CsvLastLine, ColumnsThatAreNotWantedDecideAlike) {
+TEST(CsvLastLine, IgnoredColumnsAlsoShowACutRow) {
   OpenLogOptions options;
   options.keep_extra = false;
   EXPECT_EQ(read_csv("t,q1,x\n0,1,4.25\n1,2,5.25\n2,3,4.2", options).log.rows(), 2);

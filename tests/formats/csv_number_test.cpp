@@ -95,7 +95,7 @@ TEST(CsvNumber, ShortestAndFixedTextOfLogsIsRoundedCorrectly) {
   table.expect_strtod();
 }
 
-TEST(CsvNumber, EveryExponentComesBack) {
+TEST(CsvNumber, NumbersOfEveryExponentAreReadExactly) {
   NumberTable table;
   Random random(3);
   for (int i = 0; i < kNumbers; ++i) {
@@ -108,7 +108,7 @@ TEST(CsvNumber, EveryExponentComesBack) {
   table.expect_strtod();
 }
 
-TEST(CsvNumber, HalfwayBetweenTwoDoublesGoesToTheEvenOne) {
+TEST(CsvNumber, ANumberHalfwayBetweenTwoDoublesRoundsToTheEvenOne) {
   NumberTable table;
   Random random(4);
   for (int i = 0; i < kNumbers; ++i) {
@@ -125,7 +125,7 @@ TEST(CsvNumber, HalfwayBetweenTwoDoublesGoesToTheEvenOne) {
   table.expect_strtod();
 }
 
-TEST(CsvNumber, UnusualFormsAreThoseOfStrtod) {
+TEST(CsvNumber, UnusualFormsAreReadAsByStrtod) {
   NumberTable table;
   for (const char* text : {"0",
                            "-0",
@@ -170,7 +170,7 @@ TEST(CsvNumber, UnusualFormsAreThoseOfStrtod) {
   table.expect_strtod();
 }
 
-TEST(CsvNumber, WhatIsNoNumberIsNotReadAsOne) {
+TEST(CsvNumber, TextThatIsNotANumberIsNotRead) {
   WideRows wide(',', '.');
   for (const std::string cell : {"",        "-",     ".",    "-.",   "e5",   "1e",   "1e+", "1.5e",
                                  "1.2.3",   "--1.5", "+1.5", "1.5 ", "1.5x", "0x10", "1,5", "\"1.5\"",
@@ -185,7 +185,7 @@ TEST(CsvNumber, WhatIsNoNumberIsNotReadAsOne) {
   }
 }
 
-TEST(CsvNumber, AnEmptyCellIsMissingButARowOfThemIsLeftToOthers) {
+TEST(CsvNumber, AnEmptyCellIsMissingButAnEmptyRowIsLeftToTheOtherReader) {
   WideRows wide('\t', '.');
   if (!wide.can_read()) GTEST_SKIP() << "this processor reads numbers one by one";
   std::string text = std::string(kNumberMargin, '1') + "0.5\t\n\t2.5\r\n\t \r\n";

@@ -22,13 +22,13 @@ TEST(CsvReader, CanonicalColumnsNeedNoMapping) {
   EXPECT_EQ(identity.format, "csv");
 }
 
-TEST(CsvReader, SemicolonsAndDecimalComma) {
+TEST(CsvReader, SemicolonsAndDecimalCommasAreRead) {
   const Log log = read_csv("t;q1;q2\n0;1,5;-2\n0,1;1,25e-1;3\n").log;
   EXPECT_EQ(log.time, (Values{0, 0.1}));
   EXPECT_EQ(log.q, (JointSignals{{1.5, 0.125}, {-2, 3}}));
 }
 
-TEST(CsvReader, TabsBlanksBarsAndCommasWithBlanks) {
+TEST(CsvReader, TabsBlanksBarsAndCommasWithBlanksSeparateFields) {
   for (const char* separator : {"\t", "  ", " ", "|", ", ", " ; "}) {
     std::string text = "t,q1,tau1\n0,1.5,2\n0.1,-1.5,3\n";
     for (std::size_t at; (at = text.find(',')) != std::string::npos && std::string(separator) != ", ";)
@@ -40,14 +40,14 @@ TEST(CsvReader, TabsBlanksBarsAndCommasWithBlanks) {
   }
 }
 
-TEST(CsvReader, QuotesCommentsByteOrderMarkAndCarriageReturns) {
+TEST(CsvReader, QuotesCommentsByteOrderMarkAndCarriageReturnsAreIgnored) {
   const Log log =
       read_csv("\xEF\xBB\xBF# a robot\r\n\"t\",\"q1\"\r\n\"0\",\"1.5\"\r\n% pause\r\n\r\n0.1,2.5\r\n").log;
   EXPECT_EQ(log.time, (Values{0, 0.1}));
   EXPECT_EQ(log.q, (JointSignals{{1.5, 2.5}}));
 }
 
-TEST(CsvReader, HeaderBehindACommentSign) {
+TEST(CsvReader, AHeaderAfterACommentSignIsRead) {
   EXPECT_EQ(read_csv("# t q1 tau1\n0 1 2\n0.5 3 4\n").log.tau, (JointSignals{{2, 4}}));
 }
 
@@ -73,7 +73,7 @@ TEST(CsvReader, UnitsInTheirOwnLineAreHonoured) {
   EXPECT_DOUBLE_EQ(read_csv("t,q1\nms,deg\n0,180\n10,90\n").log.q[0][0], M_PI);
 }
 
-TEST(CsvReader, ColumnMapGivesNameUnitSignScaleAndOffset) {
+TEST(CsvReader, TheColumnMapSetsNameUnitSignScaleAndOffset) {
   OpenLogOptions options;
   options.columns["t"] = {.name = "stamp", .unit = "us"};
   options.columns["q1"] = {.name = "enc", .unit = "deg", .sign = -1, .scale = 2, .offset = 1};
@@ -82,7 +82,7 @@ TEST(CsvReader, ColumnMapGivesNameUnitSignScaleAndOffset) {
   EXPECT_DOUBLE_EQ(log.q[0][1], 1.0 - M_PI);
 }
 
-TEST(CsvReader, RowNumbersStandForAMissingTime) {
+TEST(CsvReader, RowNumbersReplaceAMissingTime) {
   OpenLogOptions options;
   options.columns["t"] = {.name = "@row", .scale = 0.5};
   EXPECT_EQ(read_csv("q1\n7\n8\n9\n", options).log.time, (Values{0, 0.5, 1.0}));
@@ -96,7 +96,7 @@ TEST(CsvReader, OneColumnMayServeTwoChannels) {
   EXPECT_EQ(log.q_ref, (JointSignals{{6, 7}}));
 }
 
-TEST(CsvReader, TextWhereANumberBelongsIsMissingAndToldWithItsPlace) {
+TEST(CsvReader, TextInPlaceOfANumberIsMissingAndReportedWithItsPlace) {
   const auto [log, identity, issues] = read_csv("t,q1,tau1\n0,1,2\n1,oops,3\n2,4,bad\n3,worse,5\n");
   EXPECT_TRUE(std::isnan(log.q[0][1]));
   EXPECT_TRUE(std::isnan(log.q[0][3]));
@@ -108,7 +108,7 @@ TEST(CsvReader, TextWhereANumberBelongsIsMissingAndToldWithItsPlace) {
     EXPECT_NE(issue->message.find(word), std::string::npos) << issue->message;
 }
 
-TEST(CsvReader, EmptyCellsAreMissingWithoutComplaint) {
+TEST(CsvReader, EmptyCellsAreMissingWithoutAnIssue) {
   const auto [log, identity, issues] = read_csv("t,q1,q2\n0,1,\n1,,2\n2,nan,NULL\n");
   EXPECT_TRUE(std::isnan(log.q[1][0]) && std::isnan(log.q[0][1]) && std::isnan(log.q[0][2]));
   EXPECT_EQ(log.q[1][1], 2);
@@ -199,15 +199,15 @@ TEST(CsvReader, UnknownUnitOfTheColumnMapIsAUsageError) {
   EXPECT_NE(why_refused("t,q1\n0,1\n", options).find("furlong"), std::string::npos);
 }
 
-TEST(CsvReader, HeaderOnlyIsRefused) {
+TEST(CsvReader, AFileWithOnlyAHeaderIsRefused) {
   EXPECT_NE(why_refused("t,q1,tau1\n").find("no data row"), std::string::npos);
 }
 
-TEST(CsvReader, NoUsableTimeIsRefused) {
+TEST(CsvReader, AFileWithoutUsableTimeIsRefused) {
   EXPECT_NE(why_refused("t,q1\nx,1\ny,2\n").find("usable time"), std::string::npos);
 }
 
-TEST(CsvReader, NoHeaderNumbersTheColumnsAndTellsHowToMap) {
+TEST(CsvReader, ColumnsWithoutAHeaderAreNumberedAndNeedTheColumnMap) {
   EXPECT_NE(why_refused("0,1,2\n1,3,4\n").find("\"column2\""), std::string::npos);
   OpenLogOptions options;
   options.columns["t"] = {.name = "column1"};

@@ -71,7 +71,7 @@ std::string image_chunk(std::size_t bytes) {
                      made::message(2, 0, std::string(bytes, '\0')));
 }
 
-TEST_F(HostileFile, AnMcapChunkThatUnpacksToMoreThanIsReadAtOnceIsPassedOver) {
+TEST_F(HostileFile, AnMcapChunkThatUnpacksBeyondTheLimitIsSkipped) {
   const made::Reading reading =
       reading_of(made::mcap(made::topic(1, "/joint_states") + made::states(1, 0, 50, kTwo) +
                             image_chunk(100 * kMiB) + made::states(1, 50, 50, kTwo)));
@@ -79,14 +79,14 @@ TEST_F(HostileFile, AnMcapChunkThatUnpacksToMoreThanIsReadAtOnceIsPassedOver) {
   expect_says(reading.message_of("chunk_damaged"), "more than the 64 MiB");
 }
 
-TEST_F(HostileFile, McapChunksThatUnpackToNothingOfTheLogAreRefused) {
+TEST_F(HostileFile, McapChunksThatUnpackToMuchForeignDataAreRefused) {
   const std::string part = image_chunk(50 * kMiB);
   std::string all = made::topic(1, "/joint_states") + made::states(1, 0, 50, kTwo);
   for (int i = 0; i < 40; ++i) all += part;
   expect_says(refusal(reading_of(made::mcap(all))), kTooMuch);
 }
 
-TEST_F(HostileFile, BagChunksThatUnpackToNothingOfTheLogAreRefused) {
+TEST_F(HostileFile, BagChunksThatUnpackToMuchForeignDataAreRefused) {
   std::string all = made::connection(0, "/joint_states");
   for (int k = 0; k < 50; ++k) all += made::bag_state(0, k, kTwo, 0.0);
   const std::string part =
@@ -97,7 +97,7 @@ TEST_F(HostileFile, BagChunksThatUnpackToNothingOfTheLogAreRefused) {
   expect_says(refusal(reading_of(made::bag(all))), kTooMuch);
 }
 
-TEST_F(HostileFile, MessagesThatSayTheSameAgainAndAgainAreRefused) {
+TEST_F(HostileFile, MillionsOfRepeatedMessagesAreRefused) {
   std::string same;
   for (int i = 0; i < 100'000; ++i) same += made::states(1, 0, 1, kTwo);
   const std::string part = made::chunk(same);
@@ -106,7 +106,7 @@ TEST_F(HostileFile, MessagesThatSayTheSameAgainAndAgainAreRefused) {
   expect_says(refusal(reading_of(made::mcap(all))), kTooMuch);
 }
 
-TEST_F(HostileFile, NewJointNamesInEachMessageMakeNoColumnsWithoutEnd) {
+TEST_F(HostileFile, NewJointNamesInEachMessageMakeABoundedNumberOfColumns) {
   std::string all = made::topic(1, "/joint_states") + made::states(1, 0, 50, kTwo);
   for (int k = 0; k < 1000; ++k) {
     std::vector<std::string> names;
@@ -120,14 +120,14 @@ TEST_F(HostileFile, NewJointNamesInEachMessageMakeNoColumnsWithoutEnd) {
   EXPECT_EQ(reading.rows_read, reading.log.rows() + reading.issues.rows_dropped());
 }
 
-TEST_F(HostileFile, AHundredThousandTopicsTakeNoTimeWithTheSquareOfTheirNumber) {
+TEST_F(HostileFile, AHundredThousandTopicsTakeNoQuadraticTime) {
   std::string all = made::connection(0, "/joint_states");
   for (int k = 0; k < 50; ++k) all += made::bag_state(0, k, kTwo, 0.0);
   for (std::uint32_t id = 1; id < 100'000; ++id) all += made::connection(id, "/t" + std::to_string(id));
   EXPECT_EQ(reading_of(made::bag(made::bag_chunk(all))).log.rows(), 50);
 }
 
-TEST_F(HostileFile, ALongListInJsonIsNoMessage) {
+TEST_F(HostileFile, AJsonMessageWithAVeryLongListIsRefused) {
   ByteBuilder schema, channel;
   schema.put(std::uint16_t{1}).put_text("sensor_msgs/msg/JointState").put_text("jsonschema").put_text("");
   channel.put(std::uint16_t{1}).put(std::uint16_t{1}).put_text("/joint_states").put_text("json").put_text("");
@@ -143,7 +143,7 @@ constexpr const char* kTopicsTable =
     "CREATE TABLE topics(id INTEGER PRIMARY KEY, name, type, serialization_format);"
     "INSERT INTO topics VALUES(1, '/joint_states', 'sensor_msgs/msg/JointState', 'cdr');";
 
-TEST_F(HostileFile, AColumnThatIsComputedIsNotRun) {
+TEST_F(HostileFile, AComputedColumnIsRefused) {
   const std::string path = database(
       std::string(kTopicsTable) +
       "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data AS (hex(zeroblob(100000000))));"
@@ -152,7 +152,7 @@ TEST_F(HostileFile, AColumnThatIsComputedIsNotRun) {
   expect_says(refusal(read_soon(path)), "the table \"messages\" has a computed column");
 }
 
-TEST_F(HostileFile, AViewInPlaceOfATableIsNotRun) {
+TEST_F(HostileFile, AViewInPlaceOfATableIsRefused) {
   const std::string path =
       database(std::string(kTopicsTable) +
                "CREATE VIEW messages AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) "
@@ -195,7 +195,7 @@ std::string resting(int rows) {
   return text;
 }
 
-TEST_F(HostileFile, ARobotThatRestsForMinutesIsALogWhateverPacksIt) {
+TEST_F(HostileFile, APackedLogOfARobotAtRestForMinutesIsRead) {
   constexpr int kRows = 300'000;
   const std::string text = resting(kRows);
   EXPECT_EQ(reading_of(gz_packed(text)).log.rows(), kRows);
@@ -257,7 +257,7 @@ class HostileHdf5 : public HostileFile {
   std::string path_ = folder_.file("run.h5");
 };
 
-TEST_F(HostileHdf5, ADatasetThatIsNoPartOfTheLogIsNotRead) {
+TEST_F(HostileHdf5, ADatasetOutsideTheLogIsNotRead) {
   {
     Hdf5Made file(path_);
     file.add("t", 1000, 1000, counted(1000));
@@ -270,7 +270,7 @@ TEST_F(HostileHdf5, ADatasetThatIsNoPartOfTheLogIsNotRead) {
   EXPECT_NE(reading.message_of("array_left_out") + reading.message_of("signal_left_out"), "");
 }
 
-TEST_F(HostileHdf5, RowsThatTheFileHasNoBytesForAreRefused) {
+TEST_F(HostileHdf5, RowsWithoutBytesInTheFileAreRefused) {
   for (const bool zeros : {true, false}) {
     {
       Hdf5Made file(path_);
@@ -282,7 +282,7 @@ TEST_F(HostileHdf5, RowsThatTheFileHasNoBytesForAreRefused) {
   }
 }
 
-TEST_F(HostileHdf5, ALogInOneHugeChunkIsRefusedWithAWayOut) {
+TEST_F(HostileHdf5, ALogInOneHugeChunkIsRefusedWithAdvice) {
   {
     Hdf5Made file(path_);
     file.add("t", 1000, 1000, counted(1000));
@@ -291,7 +291,7 @@ TEST_F(HostileHdf5, ALogInOneHugeChunkIsRefusedWithAWayOut) {
   expect_says(refusal(read_soon(path_)), "h5repack");
 }
 
-TEST_F(HostileHdf5, IntactFilesWithoutATableSayWhatTheyHold) {
+TEST_F(HostileHdf5, IntactFilesWithoutATableAreRefusedWithTheReason) {
   const auto made_of = [&](auto add) {
     {
       Hdf5Made file(path_);

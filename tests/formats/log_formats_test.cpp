@@ -31,7 +31,7 @@ TEST(LogFormats, EachHasItsOwnNameAndExtensions) {
   EXPECT_EQ(log_extensions().size(), extensions.size());
 }
 
-TEST(LogFormats, WhatIsWrittenIsRecognisedByItsContentUnderAnyName) {
+TEST(LogFormats, AWrittenLogIsRecognisedByItsContentUnderAnyName) {
   const TemporaryFolder folder;
   ASSERT_GE(written_formats().size(), 2u);
   for (const LogFormat& format : written_formats()) {
@@ -46,7 +46,7 @@ TEST(LogFormats, WhatIsWrittenIsRecognisedByItsContentUnderAnyName) {
   }
 }
 
-TEST(LogFormats, AnExtensionOfNoFormatIsRefusedWithThoseThereAre) {
+TEST(LogFormats, AnUnknownExtensionIsRefusedWithTheKnownOnes) {
   try {
     create_log("log.xyz");
     FAIL();

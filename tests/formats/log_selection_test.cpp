@@ -79,7 +79,7 @@ TEST_F(LogSelectionTest, AJoinByTimeOfAFileWithoutTimeIsRefused) {
   }
 }
 
-TEST_F(LogSelectionTest, ALogGoesOnInTheNextFileWhateverTheOrderOfItsColumns) {
+TEST_F(LogSelectionTest, ALogContinuesInTheNextFileWithAnyOrderOfColumns) {
   const std::string first = file("1.csv", "t,q1,tau1\n0,1,5\n1,2,6\n"),
                     next = file("2.csv", "tau1,t,q1\n7,2,3\n8,3,4\n");
   const Log log = read(first, {.then = {next}});
@@ -88,7 +88,7 @@ TEST_F(LogSelectionTest, ALogGoesOnInTheNextFileWhateverTheOrderOfItsColumns) {
   EXPECT_EQ(log.tau[0], (Values{5, 6, 7, 8}));
 }
 
-TEST_F(LogSelectionTest, TheNextFileIsTurnedIntoTheUnitsOfTheFirst) {
+TEST_F(LogSelectionTest, TheNextFileIsConvertedToTheUnitsOfTheFirst) {
   const std::string first = file("1.csv", "t [s],q1 [mm]\n0,1000\n1,2000\n");
   const std::string next = file("2.csv", "t [ms],q1 [m]\n2000,3\n3000,4\n");
   const Log log = read(first, {.then = {next}});
@@ -97,7 +97,7 @@ TEST_F(LogSelectionTest, TheNextFileIsTurnedIntoTheUnitsOfTheFirst) {
   EXPECT_THROW(read(first, {.then = {file("3.csv", "t [s],q1 [deg]\n2,3\n3,4\n")}}), Error);
 }
 
-TEST_F(LogSelectionTest, RowsOfTheJoinedFileThatBelongToNoneAreTold) {
+TEST_F(LogSelectionTest, RowsOfTheJoinedFileWithoutCounterpartAreReported) {
   const std::string position = file("p.csv", "t,q1\n0,1\n1,2\n"),
                     longer = file("c.csv", "tau1\n10\n20\n30\n40\n");
   OpenLogOptions options;
@@ -134,7 +134,7 @@ TEST_F(LogSelectionTest, OneRunOfAFileInWhichTheClockRestartsIsRead) {
   }
 }
 
-TEST_F(LogSelectionTest, RowsThatAreSentTwiceAreNoRestart) {
+TEST_F(LogSelectionTest, RowsThatAreSentTwiceAreNotARestart) {
   std::string text = "t,q1\n";
   for (int i = 0; i < 100; ++i) text += std::to_string(i) + ",1\n";
   for (int i = 70; i < 130; ++i) text += std::to_string(i) + ",1\n";

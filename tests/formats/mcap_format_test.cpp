@@ -49,7 +49,7 @@ void expect_same(const Log& a, const Log& b) {
   }
 }
 
-TEST(McapFormat, ALogComesBackBitForBit) {
+TEST(McapFormat, ALogIsReadBackBitForBit) {
   const TemporaryFolder folder;
   for (const double start_s : {0.0, 12.5, 1749315325.0}) {
     const Log log = full_log(3000, start_s);
@@ -60,7 +60,7 @@ TEST(McapFormat, ALogComesBackBitForBit) {
   }
 }
 
-TEST(McapFormat, DecimalTimesComeBackBitForBit) {
+TEST(McapFormat, DecimalTimesAreReadBackBitForBit) {
   const TemporaryFolder folder;
   Log log = full_log(2000, 0.0);
   for (int i = 0; i < log.rows(); ++i) log.time[i] = i / 1000.0;
@@ -68,7 +68,7 @@ TEST(McapFormat, DecimalTimesComeBackBitForBit) {
   EXPECT_EQ(read_all(*open_log(folder.file("log.mcap"))).time, log.time);
 }
 
-TEST(McapFormat, HowTheRowsAreCutIntoSegmentsChangesNoByte) {
+TEST(McapFormat, BordersOfSegmentsChangeNoByte) {
   const TemporaryFolder folder;
   const Log log = full_log(5000, 0.0);
   write_log(folder.file("once.mcap"), log);
@@ -101,7 +101,7 @@ TEST(McapFormat, ATimeBeforeZeroIsRefusedAndNoFileIsLeft) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(McapFormat, WhereverItIsCutNoRowIsInventedAndAllAreAccountedFor) {
+TEST(McapFormat, ACutFileGivesOnlyTrueRowsAndAnIssue) {
   const TemporaryFolder folder;
   const Log log = full_log(40, 0.0);
   write_log(folder.file("log.mcap"), log);

@@ -116,7 +116,7 @@ TEST_F(NativeDamage, ACutFileKeepsAllRowsButTheLastFew) {
   }
 }
 
-TEST_F(NativeDamage, VersionOneIsRefusedWithACure) {
+TEST_F(NativeDamage, VersionOneIsRefusedWithAdvice) {
   const Outcome outcome = read(native_preface_of(1, kList) + native_chunk_of(2, 0, {0.5, 0.6, 1, 2}) +
                                native_header_of(kEndMarker, 0, 2));
   EXPECT_NE(outcome.refused.find("damaged.flog"), std::string::npos) << outcome.refused;
@@ -124,7 +124,7 @@ TEST_F(NativeDamage, VersionOneIsRefusedWithACure) {
   EXPECT_NE(outcome.refused.find("record it again"), std::string::npos) << outcome.refused;
 }
 
-TEST_F(NativeDamage, RowNumbersThatRunBackAreNotBelieved) {
+TEST_F(NativeDamage, DecreasingRowNumbersAreRejected) {
   const std::vector<double> two{0.5, 0.6, 1, 2}, later{0.7, 0.8, 3, 4};
   const Outcome outcome =
       read(native_prefaces(kList) + native_chunk_of(2, 100, two) + native_chunk_of(2, 50, later) +
@@ -136,7 +136,7 @@ TEST_F(NativeDamage, RowNumbersThatRunBackAreNotBelieved) {
     EXPECT_EQ(issue.message.find("-"), std::string::npos) << issue.message;
 }
 
-TEST_F(NativeDamage, RowNumbersBeyondAllCountingAreNotBelieved) {
+TEST_F(NativeDamage, ImpossiblyLargeRowNumbersAreRejected) {
   const std::vector<double> two{0.5, 0.6, 1, 2};
   for (const std::uint64_t row :
        {std::uint64_t{1} << 63, ~std::uint64_t{0} - 1, (std::uint64_t{1} << 63) - 1}) {
@@ -148,7 +148,7 @@ TEST_F(NativeDamage, RowNumbersBeyondAllCountingAreNotBelieved) {
   }
 }
 
-TEST_F(NativeDamage, MemoryFollowsWhatTheFileHoldsNotWhatItPromises) {
+TEST_F(NativeDamage, MemoryDependsOnTheBytesOfTheFileNotOnItsHeader) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the address sanitizer needs more address space than the limit leaves";
 #endif
@@ -181,7 +181,7 @@ TEST_F(NativeDamage, NestedDamagedChunksTakeNoQuadraticTime) {
   EXPECT_NE(outcome.refused.find("usable time"), std::string::npos) << outcome.refused;
 }
 
-TEST_F(NativeDamage, MoreColumnsThanAreReadAreNotWritten) {
+TEST_F(NativeDamage, MoreColumnsThanCanBeReadAreNotWritten) {
   Log log;
   log.time = {0.0, 1.0};
   log.q = {{1.0, 2.0}};

@@ -150,7 +150,7 @@ TEST_F(NativeFormat, ChecksumMismatchSkipsTheChunk) {
   EXPECT_EQ(identity.rows_read, kRows);
 }
 
-TEST_F(NativeFormat, DamagedChunkHeaderIsPassedOverToTheNextChunk) {
+TEST_F(NativeFormat, ReadingContinuesAtTheNextChunkAfterADamagedHeader) {
   bytes_[list_ + 5] ^= 1;
   const auto [log, identity, issues] = read_damaged(bytes_);
   EXPECT_EQ(log.rows(), kRows - kFirst);
@@ -158,7 +158,7 @@ TEST_F(NativeFormat, DamagedChunkHeaderIsPassedOverToTheNextChunk) {
   EXPECT_EQ(identity.rows_read, kRows);
 }
 
-TEST_F(NativeFormat, MissingBytesCostTheirChunkAlone) {
+TEST_F(NativeFormat, MissingBytesLoseOnlyTheirChunk) {
   const std::size_t second = list_ + kChunkBytes;
   for (const std::size_t missing : {1, 31, 33, 100}) {
     const auto [log, identity, issues] = read_damaged(without(second + 50, missing));
@@ -176,7 +176,7 @@ TEST_F(NativeFormat, MissingBytesInTheLastChunkKeepTheEndMark) {
   EXPECT_EQ(identity.rows_read, kRows);
 }
 
-TEST_F(NativeFormat, AWholeChunkThatIsMissingIsTold) {
+TEST_F(NativeFormat, AMissingChunkIsReported) {
   const auto [log, identity, issues] = read_damaged(without(list_, kChunkBytes));
   EXPECT_EQ(log.rows(), kRows - kFirst);
   ASSERT_NE(issues.find("chunk_damaged"), nullptr);
@@ -192,7 +192,7 @@ TEST_F(NativeFormat, TruncatedTailKeepsWholeChunks) {
   EXPECT_NE(issues.find("file_truncated")->message.find("its 8 rows"), std::string::npos);
 }
 
-TEST_F(NativeFormat, TruncationBetweenChunksIsNoticed) {
+TEST_F(NativeFormat, TruncationBetweenChunksIsReported) {
   const auto [log, identity, issues] = read_damaged(bytes_.substr(0, list_ + kChunkBytes));
   EXPECT_EQ(log.rows(), kFirst);
   EXPECT_NE(issues.find("file_truncated"), nullptr);

@@ -54,7 +54,7 @@ class DamagedLog : public testing::Test {
   std::string damaged_ = folder_.file("damaged.flog");
 };
 
-TEST_F(DamagedLog, EachCopyTellsWhatItsOriginalLostAndSoDoCopiesOfIt) {
+TEST_F(DamagedLog, EachCopyAndItsCopiesReportTheLossesOfTheOriginal) {
   const ReadLog original = read(damaged_);
   ASSERT_GT(original.issues.rows_dropped(), 0);
   std::string from = damaged_;
@@ -86,7 +86,7 @@ TEST_F(DamagedLog, TheCopyReadsAgainAfterRewinding) {
   EXPECT_EQ(source->issues().find("source_damaged")->count, 1);
 }
 
-TEST_F(DamagedLog, ProvenanceThatCannotBeReadIsTold) {
+TEST_F(DamagedLog, DamagedProvenanceIsReported) {
   ASSERT_EQ(run_program({"convert", damaged_, folder_.file("copy.csv")}).status, 1);
   const std::string bytes = read_file(folder_.file("copy.csv"));
   folder_.write("cut.csv", bytes.substr(0, bytes.size() - 20));
@@ -96,7 +96,7 @@ TEST_F(DamagedLog, ProvenanceThatCannotBeReadIsTold) {
 }
 
 /// Whatever becomes of the block in a native log, all rows are read and the damage is told.
-TEST_F(DamagedLog, AFlippedBitInNativeProvenanceCostsNoRowAndIsTold) {
+TEST_F(DamagedLog, AFlippedBitInNativeProvenanceLosesNoRowAndIsReported) {
   ASSERT_EQ(run_program({"convert", damaged_, folder_.file("copy.flog")}).status, 1);
   const std::string bytes = read_file(folder_.file("copy.flog"));
   const std::size_t block = bytes.find("PROV"), text = block + sizeof(NativeChunkHeader);
@@ -115,7 +115,7 @@ TEST_F(DamagedLog, AFlippedBitInNativeProvenanceCostsNoRowAndIsTold) {
   }
 }
 
-TEST_F(DamagedLog, NativeProvenanceThatIsCutIsTold) {
+TEST_F(DamagedLog, CutNativeProvenanceIsReported) {
   ASSERT_EQ(run_program({"convert", damaged_, folder_.file("copy.flog")}).status, 1);
   const std::string bytes = read_file(folder_.file("copy.flog"));
   folder_.write("cut.flog", bytes.substr(0, bytes.size() - sizeof(NativeChunkHeader) - 20));
@@ -126,7 +126,7 @@ TEST_F(DamagedLog, NativeProvenanceThatIsCutIsTold) {
 }
 
 /// Chunks that were lost before the block are counted as before any other header.
-TEST_F(DamagedLog, ProvenanceBehindLostChunksTellsTheirRows) {
+TEST_F(DamagedLog, LostChunksBeforeTheProvenanceAreCounted) {
   ASSERT_EQ(run_program({"convert", damaged_, folder_.file("copy.flog")}).status, 1);
   std::string bytes = read_file(folder_.file("copy.flog"));
   const std::size_t last = bytes.rfind("CHNK"), block = bytes.find("PROV");
@@ -137,14 +137,14 @@ TEST_F(DamagedLog, ProvenanceBehindLostChunksTellsTheirRows) {
   EXPECT_TRUE(copy.issues.find("source_damaged"));
 }
 
-TEST(Provenance, AWholeLogHasNone) {
+TEST(Provenance, ACompleteLogHasNoProvenance) {
   const TemporaryFolder folder;
   write_log(folder.file("a.flog"), long_log());
   ASSERT_EQ(run_program({"convert", folder.file("a.flog"), folder.file("b.csv")}).status, 0);
   EXPECT_EQ(read_file(folder.file("b.csv")).find("provenance"), std::string::npos);
 }
 
-TEST(Provenance, ValuesThatWereLostAreTold) {
+TEST(Provenance, LostValuesAreReported) {
   const TemporaryFolder folder;
   const std::string log = folder.write("a.csv", "t,q1\n0,1\n1,2x\n2,3\n");
   EXPECT_EQ(run_program({"convert", log, folder.file("b.csv")}).status, 1);

@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-TEST(NativePythonReader, ReadsWhatIsWritten) {
+TEST(NativePythonReader, ReadsAWrittenLog) {
   SKIP_UNLESS_INSTALLED(std::system("python3 -c '' 2>/dev/null") == 0, "python3 is missing");
   const std::string page = read_file(std::string(FAULTLINE_SOURCE_DIR) + "/docs/formats-native.md");
   const std::string fence = "```python\n";

@@ -31,7 +31,7 @@ for packing in ('none', 'bz2', 'lz4'):
             bag.write('/joint_states', m, rospy.Time(10, k * 1000000 + 500))
 )";
 
-TEST(RosbagOfRos, IsReadWhateverItsCompression) {
+TEST(RosbagOfRos, IsReadWithAnyCompression) {
   const TemporaryFolder folder;
   if (!run_python(folder, kWriteBags)) GTEST_SKIP() << "no Python with rosbag and sensor_msgs";
   OpenLogOptions options;
@@ -49,7 +49,7 @@ TEST(RosbagOfRos, IsReadWhateverItsCompression) {
   }
 }
 
-TEST(RosbagOfRealRobots, IsReadWhole) {
+TEST(RosbagOfRealRobots, IsReadCompletely) {
   const std::filesystem::path data = shared_data();
   if (data.empty()) GTEST_SKIP() << "the shared data are not there";
   const auto one = open_log(data / "ur3-rosbag1/id1.bag");

@@ -43,7 +43,7 @@ std::string mutated(std::string bytes, Random& random) {
 
 class MutatedSeeds : public testing::TestWithParam<FedReader> {};
 
-TEST_P(MutatedSeeds, AreTakenOrRefused) {
+TEST_P(MutatedSeeds, AreReadOrRefused) {
   std::vector<std::string> paths = seed_files();
   std::erase_if(paths,
                 [](const std::string& path) { return std::filesystem::file_size(path) > kLongestSeed; });
@@ -60,7 +60,7 @@ TEST_P(MutatedSeeds, AreTakenOrRefused) {
 
 constexpr int kMutationsOfACase = 15;
 
-TEST(MutatedCases, OfLogFormatsAreTakenOrRefused) {
+TEST(MutatedCases, OfLogFormatsAreReadOrRefused) {
   Random random(2);
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(FAULTLINE_SOURCE_DIR "/tests/formats/cases")) {

@@ -16,7 +16,7 @@ constexpr double kLongest_s = 5.0;
 
 class PastCrashes : public testing::TestWithParam<FedReader> {};
 
-TEST_P(PastCrashes, NoneIsLeft) {
+TEST_P(PastCrashes, DoNotRecur) {
   const std::vector<std::string> paths = seed_files();
   ASSERT_GT(paths.size(), 8u);
   for (const std::string& path : paths) {

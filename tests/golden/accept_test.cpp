@@ -40,7 +40,7 @@ class AcceptGolden : public testing::Test {
   GoldenRun run_;
 };
 
-TEST_F(AcceptGolden, OnlyTheNamedLogIsTakenWithANewTrace) {
+TEST_F(AcceptGolden, OnlyTheNamedLogIsAcceptedWithANewTrace) {
   const GoldenLog before = stored("locked_1.csv");
   accept_golden(golden_.path(), set_, run_, {"locked_1.csv"});
   const GoldenLog after = stored("locked_1.csv");
@@ -66,7 +66,7 @@ TEST_F(AcceptGolden, ALogThatCannotBeProcessedIsRefusedAndNothingChanges) {
   EXPECT_EQ(golden_.snapshot(), before);
 }
 
-TEST_F(AcceptGolden, ANamedLogWhoseFileWasChangedIsTakenAsItIsNow) {
+TEST_F(AcceptGolden, ANamedLogWithAChangedFileIsAcceptedWithItsNewContent) {
   const std::string path = golden_.path() + "/logs/locked_1.csv";
   write_file(path, read_file(path) + "\n");
   EXPECT_NE(stored("locked_1.csv").damage, "");
@@ -75,7 +75,7 @@ TEST_F(AcceptGolden, ANamedLogWhoseFileWasChangedIsTakenAsItIsNow) {
   EXPECT_EQ(stored("locked_1.csv").log.sha256, sha256_of_file(path));
 }
 
-TEST_F(AcceptGolden, TheIdentificationIsTakenByItsName) {
+TEST_F(AcceptGolden, TheIdentificationIsAcceptedByItsName) {
   run_.identification->parameters.at(0).value = 42.0;
   accept_golden(golden_.path(), set_, run_, {"locked_1.csv"});
   EXPECT_NE(load_golden(golden_.path()).identification->expected.parameters.at(0).value, 42.0);

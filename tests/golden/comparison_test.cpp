@@ -23,12 +23,12 @@ Observation example() {
 
 ToleranceChain none() { return {}; }
 
-TEST(GoldenComparison, TheSameIsTheSameAlsoWhereItIsNan) {
+TEST(GoldenComparison, EqualObservationsAreTheSameAlsoIfTheyHoldNan) {
   EXPECT_TRUE(compare(example(), example(), none()).same());
   EXPECT_EQ(first_divergence(compare(example(), example(), none())), nullptr);
 }
 
-TEST(GoldenComparison, NanForANumberIsADifferenceInEachPlace) {
+TEST(GoldenComparison, NanInPlaceOfANumberIsADifferenceAnywhere) {
   for (int place = 0; place < 4; ++place) {
     Observation actual = example();
     if (place == 0) actual.residuals[0].velocity_rms = kNan;
@@ -40,7 +40,7 @@ TEST(GoldenComparison, NanForANumberIsADifferenceInEachPlace) {
   }
 }
 
-TEST(GoldenComparison, AnotherNumberOfRowsDiffersUnlessToldSo) {
+TEST(GoldenComparison, AnotherNumberOfRowsIsADifferenceUnlessAllowed) {
   Observation longer = example();
   longer.rows = 5;
   longer.trace.time.insert(longer.trace.time.begin(), 0.05);
@@ -88,7 +88,7 @@ TEST(GoldenComparison, TheFirstDivergenceIsTheEarliest) {
   EXPECT_EQ(first->expected, "0.5");
 }
 
-TEST(GoldenComparison, MissingAndUnexpectedEventsAndAChangedTime) {
+TEST(GoldenComparison, MissingAndUnexpectedEventsAndAChangedTimeAreDifferences) {
   Observation actual = example();
   actual.events[0].label.joint = 3_joint;
   actual.events[1].alarm_s = 3.15;
@@ -111,7 +111,7 @@ TEST(GoldenComparison, AVerdictHasNoTimeAndNoTolerance) {
   EXPECT_EQ(first_divergence(found)->time_s, 3.0);
 }
 
-TEST(GoldenComparison, ALogThatCannotBeProcessedAnyMoreDiffersAndSaysWhy) {
+TEST(GoldenComparison, ALogThatCannotBeProcessedAnyMoreDiffersAndNamesTheReason) {
   Observation unusable;
   unusable.verdict = kUnusable;
   unusable.reason = "has no time";
@@ -135,7 +135,7 @@ TEST(GoldenComparison, ParametersAreComparedByName) {
   EXPECT_FALSE(compare(expected, actual, {&allow}).same());
 }
 
-TEST(CompareGolden, OtherTimesAreNoOtherVerdictButAnotherEventIs) {
+TEST(CompareGolden, AnotherEventChangesTheVerdictButOtherTimesDoNot) {
   Observation later = example();
   later.events[0].onset_s = 1.2;
   EXPECT_FALSE(compare(example(), later, none()).same());
@@ -209,7 +209,7 @@ TEST(CompareEvents, AnotherKindOrJointIsOneMissingAndOneUnexpected) {
   EXPECT_EQ(found.lines[1].expected, "");
 }
 
-TEST(CompareEvents, AnUnknownTimeIsSaidAndAgreesWithItself) {
+TEST(CompareEvents, AnUnknownTimeIsNamedAndEqualsItself) {
   ObservedEvent endless = locked(1.0);
   endless.end_s = NAN;
   endless.evidence = 120.0;
@@ -223,7 +223,7 @@ TEST(CompareEvents, AnUnknownTimeIsSaidAndAgreesWithItself) {
   EXPECT_EQ(compared({endless}, {locked(1.0)}).differences.at(0).channel, "end_s");
 }
 
-TEST(CompareEvents, WhatAnEventRestsOnIsCompared) {
+TEST(CompareEvents, EvidenceDecisionAndOpinionsOfAnEventAreCompared) {
   ObservedEvent expected = locked(1.0);
   ObservedEvent actual = expected;
   actual.evidence = 100.0;

@@ -43,7 +43,7 @@ GoldenSet example() {
   return set;
 }
 
-TEST(GoldenSet, ComesBackFromItsTextAsItWas) {
+TEST(GoldenSet, IsReadBackFromItsText) {
   const std::string text = golden_text(example());
   const GoldenSet read = golden_from_text(text, "golden.toml");
   EXPECT_EQ(golden_text(read), text);

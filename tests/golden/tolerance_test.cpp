@@ -39,7 +39,7 @@ TEST(GoldenTolerance, TheNearestTableDecidesAndTheChannelGoesBeforeItsFamily) {
   EXPECT_EQ(tolerance_of({}, "q2", "q").absolute, 0.0);
 }
 
-TEST(GoldenTolerance, TheNearestTableThatSaysSoDecidesOnTheLength) {
+TEST(GoldenTolerance, TheNearestTableThatSetsItDecidesOnTheLength) {
   Tolerances silent, strict, loose;
   strict.length_may_differ = false;
   loose.length_may_differ = true;

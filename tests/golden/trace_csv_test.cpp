@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-TEST(GoldenTraceFile, ComesBackWithNanAndTimesInFull) {
+TEST(GoldenTraceFile, IsReadBackWithNanAndExactTimes) {
   const Trace trace{{"q1", "dq1"}, {0.1 + 0.2, 1763710000.073}, {{1.0 / 3.0, NAN}, {-1e-12, 2.0}}};
   const Trace read = trace_from_csv(trace_to_csv(trace), "a.csv");
   EXPECT_EQ(read.channels, trace.channels);

@@ -35,7 +35,7 @@ class GoldenTrace : public testing::Test {
   Log log_;
 };
 
-TEST_F(GoldenTrace, IsWhatWasMeasuredLessTheResidual) {
+TEST_F(GoldenTrace, EqualsTheMeasurementMinusTheResidual) {
   const Trace whole = trace(500, 4096);
   ASSERT_EQ(whole.points(), log_.rows() - 1);
   EXPECT_EQ(whole.channels, (std::vector<std::string>{"q1", "q2", "q3", "dq1", "dq2", "dq3"}));
@@ -60,7 +60,7 @@ TEST_F(GoldenTrace, DoesNotDependOnSegments) {
   }
 }
 
-TEST_F(GoldenTrace, OfALongLogHoldsEveryEighthPoint) {
+TEST_F(GoldenTrace, HoldsEveryEighthPointOfALongLog) {
   const Trace whole = trace(500, 4096), few = trace(50, 4096);
   ASSERT_EQ(few.points(), (whole.points() + 7) / 8);
   for (int i = 0; i < few.points(); ++i) {

@@ -56,7 +56,7 @@ TEST(IdentifyClosedForm, RecoversBaseParametersAndFriction) {
   }
 }
 
-TEST(IdentifyClosedForm, IntervalsHoldTheTruthAsOftenAsTheySay) {
+TEST(IdentifyClosedForm, IntervalsCoverTheTruthAtTheirConfidence) {
   const ClosedFormScara scara;
   const std::vector<double> truth = truth_of(scara);
   int covered = 0, all = 0;
@@ -94,7 +94,7 @@ TEST(IdentifyClosedForm, AJointThatNeverMovesIsNamed) {
   EXPECT_NEAR(named(id.base_parameters, "a").value / ClosedFormScara().a(), 1.0, 0.005);
 }
 
-TEST(IdentifyClosedForm, WhatIsNotIdentifiedSaysWhy) {
+TEST(IdentifyClosedForm, ParametersThatAreNotIdentifiableStateTheReason) {
   const Identification id = identify_log(simulate_closed_form({}, {}), robot_to_identify());
   int open = 0;
   for (const auto* list : {&id.base_parameters, &id.physical_parameters})
@@ -133,7 +133,7 @@ TEST(IdentifyClosedForm, GrossOutliersHardlyMoveTheValues) {
     EXPECT_NEAR(id.base_parameters[k].value / truth[k], 1.0, 0.01) << id.base_parameters[k].name;
 }
 
-TEST(IdentifyClosedForm, ALogWithAKnownPayloadSettlesMassesAndLengths) {
+TEST(IdentifyClosedForm, ALogWithAKnownPayloadDeterminesMassesAndLengths) {
   ClosedFormScara scara, loaded;
   loaded.payload = 1.0;
   ClosedFormRun run;
@@ -159,7 +159,7 @@ TEST(IdentifyClosedForm, ALogWithAKnownPayloadSettlesMassesAndLengths) {
   EXPECT_EQ(id.logs[1].payload_kg, 0.0);
 }
 
-TEST(IdentifyClosedForm, OnlyLogsWithPayloadAreRefused) {
+TEST(IdentifyClosedForm, LogsThatAllCarryAPayloadAreRefused) {
   MemorySource source(simulate_closed_form({}, {}), "loaded.csv");
   Robot robot = robot_to_identify();
   robot.payloads["loaded.csv"] = {1.0, 0.0};

@@ -53,18 +53,18 @@ double difference(const Robot& a, const Robot& b) {
   return worst / largest;
 }
 
-TEST(CoupledLogs, GiveTheRobotThatTheJointsGive) {
+TEST(CoupledLogs, GiveTheSameRobotAsLogsOfTheJoints) {
   Eigen::MatrixXd coupling(3, 3);
   coupling << 1, 0, 0, -1, 0.5, 0, 0, 0.02, 2;
   const auto source = coupled(std::make_unique<MemorySource>(uncoupled(run(), coupling), "drives"), coupling);
   EXPECT_LT(difference(plain().robot, identified(*source, nominal()).robot), 1e-6);
 }
 
-TEST(IdentifiedRobots, MoveExactlyAlikeBehindUrdf) {
+TEST(IdentifiedRobots, MoveIdenticallyAfterAnExportToUrdf) {
   EXPECT_LT(difference(plain().robot, robot_from_urdf(urdf_text(plain().robot), "identified.urdf")), 1e-12);
 }
 
-TEST(ImportedRobots, AreIdentifiedAsTheirPresetIs) {
+TEST(ImportedRobots, AreIdentifiedLikeTheirPreset) {
   std::string text = urdf_text(preset_robot("RRP"));
   text.erase(text.find("  <faultline>"), text.find("</faultline>") + 12 - text.find("  <faultline>"));
   const Robot imported = robot_from_urdf(text, "arm.urdf");

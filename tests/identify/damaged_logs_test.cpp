@@ -45,7 +45,7 @@ TEST(IdentifyDamagedLogs, SpikesInAHundredthOfTheRowsMoveMassesByLessThanAThousa
   expect_right(log, 1e-3);
 }
 
-TEST(IdentifyDamagedLogs, OneRowInTwentyLostChangesNothing) {
+TEST(IdentifyDamagedLogs, LosingOneRowInTwentyChangesNothing) {
   const Log log = good_log();
   Log kept = slice(log, 0, 0);
   Random random(4);
@@ -54,7 +54,7 @@ TEST(IdentifyDamagedLogs, OneRowInTwentyLostChangesNothing) {
   expect_right(kept, 3e-4);
 }
 
-TEST(IdentifyDamagedLogs, ABlowOfThirdOfASecondMovesMassesByLessThanAThousandth) {
+TEST(IdentifyDamagedLogs, APushOfAThirdOfASecondMovesMassesByLessThanAThousandth) {
   Log log = good_log();
   for (int k = 2000; k < 2150; ++k) log.tau[0][k] -= 15.0;  // what another body gave and no drive logged
   expect_right(log, 1e-3);

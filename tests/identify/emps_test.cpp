@@ -13,7 +13,7 @@ namespace {
 /// Janot, Gautier, Brunot, "Data set and reference models of EMPS" (2019): M, Fv, Fc and offset of the
 /// electro-mechanical positioning system, unrounded. The data set does not say how the force runs between
 /// samples, so its timing is left free.
-TEST(IdentifyEmps, PublishedParametersWithinOnePercent) {
+TEST(IdentifyEmps, AgreesWithPublishedParametersWithinOnePercent) {
   const std::string folder = testing::shared_data();
   if (folder.empty()) return;
   MemorySource source(testing::read_plain_csv(folder + "/emps/DATA_EMPS.csv", {1}, {}, {3}, 35.15065),
@@ -32,7 +32,7 @@ TEST(IdentifyEmps, PublishedParametersWithinOnePercent) {
   EXPECT_GE(id.fit_r2[0], 0.997);
 }
 
-TEST(IdentifyEmps, FrictionThatDiffersByDirectionHalvesWhatIsLeft) {
+TEST(IdentifyEmps, FrictionThatDiffersByDirectionHalvesTheError) {
   const std::string folder = testing::shared_data();
   if (folder.empty()) return;
   MemorySource source(testing::read_plain_csv(folder + "/emps/DATA_EMPS.csv", {1}, {}, {3}, 35.15065),

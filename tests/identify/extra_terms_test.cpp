@@ -39,7 +39,7 @@ const ParameterEstimate* find(const Identification& id, const std::string& prefi
   return nullptr;
 }
 
-TEST(ExtraTerms, APlainRobotGetsNone) {
+TEST(ExtraTerms, APlainRobotGetsNoExtraTerm) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     ClosedFormRun run;
     run.seed = seed;
@@ -60,7 +60,7 @@ TEST(ExtraTerms, FrictionThatGrowsWithTheLoadIsFoundWithItsShare) {
   expect_masses(id, scara, 0.002);
 }
 
-TEST(ExtraTerms, KnownLoadFrictionStaysAsItIs) {
+TEST(ExtraTerms, KnownLoadFrictionIsKept) {
   ClosedFormScara scara;
   scara.load = {0.08, 0.0, 0.0};
   MemorySource source(simulate_closed_form(scara, {.duration_s = 8.0, .period_s = 0.002}), "log");
@@ -110,7 +110,7 @@ TEST(ExtraTerms, ATorqueConstantThatTheOtherJointContradictsIsFound) {
   expect_masses(id, scara, 0.003);
 }
 
-TEST(ExtraTerms, LoadFrictionBesideATorqueConstantIsThatOfTheTrueTorque) {
+TEST(ExtraTerms, LoadFrictionBesideATorqueConstantRefersToTheTrueTorque) {
   ClosedFormScara scara;
   scara.load = {0.08, 0.08, 0.0};
   ClosedFormRun run;
@@ -123,7 +123,7 @@ TEST(ExtraTerms, LoadFrictionBesideATorqueConstantIsThatOfTheTrueTorque) {
   expect_masses(id, scara, 0.003);
 }
 
-TEST(ExtraTerms, AGearThatGivesWayIsFoundWithItsCompliance) {
+TEST(ExtraTerms, AnElasticGearIsFoundWithItsCompliance) {
   const TwoMassJoint joint;
   const Identification id = identified_two_mass(joint);
   EXPECT_TRUE(kept(id, "gc_1"));
@@ -133,14 +133,14 @@ TEST(ExtraTerms, AGearThatGivesWayIsFoundWithItsCompliance) {
   EXPECT_NEAR(id.base_parameters[0].value / joint.inertia(), 1.0, 0.01);
 }
 
-TEST(ExtraTerms, AStiffGearDoesNotGiveWay) {
+TEST(ExtraTerms, AStiffGearHasNoCompliance) {
   TwoMassJoint joint;
   joint.stiffness = 3e6;
   const Identification id = identified_two_mass(joint);
   EXPECT_FALSE(kept(id, "gc_1"));
 }
 
-TEST(ExtraTerms, TheIdentificationComesBackFromItsJson) {
+TEST(ExtraTerms, TheIdentificationIsReadBackFromItsJson) {
   ClosedFormScara scara;
   scara.load = {0.08, 0.0, 0.0};
   scara.ripple = {0.0, 0.6, 0.0};

@@ -39,7 +39,7 @@ TEST(FrictionTerms, APlainRobotGetsNeitherBendNorSkew) {
   }
 }
 
-TEST(FrictionTerms, StribeckFrictionIsBentAndLeavesTheMassesRight) {
+TEST(FrictionTerms, StribeckFrictionGetsABendAndTheMassesStayCorrect) {
   ClosedFormScara scara;
   scara.stribeck = {2.4, 0.0, 0.0};
   const Identification id = identified(scara, kDuration_s);
@@ -54,7 +54,7 @@ TEST(FrictionTerms, StribeckFrictionIsBentAndLeavesTheMassesRight) {
   }
 }
 
-TEST(FrictionTerms, ViscousFrictionThatDiffersByDirectionIsSkewed) {
+TEST(FrictionTerms, ViscousFrictionThatDiffersByDirectionGetsASkew) {
   ClosedFormScara scara;
   scara.skew = {0.0, 0.15, 0.0};
   const Identification id = identified(scara, kDuration_s);

@@ -53,7 +53,7 @@ TEST(Identification, ThreadsDoNotChangeAByte) {
   EXPECT_TRUE(once == to_json(identify_with(1)).dump());
 }
 
-TEST(Identification, JsonGivesBackTheSameValueBitForBit) {
+TEST(Identification, JsonKeepsEveryBit) {
   const auto document = to_json(identified());
   const Identification again =
       identification_from_json(nlohmann::ordered_json::parse(document.dump()), "test");
@@ -77,7 +77,7 @@ TEST(Identification, AnotherSchemaAndACutDocumentAreRefused) {
   EXPECT_THROW(identification_from_json(document, "test"), Error);
 }
 
-TEST(Identification, DrawsScatterAsTheCovarianceSays) {
+TEST(Identification, DrawsHaveTheEstimatedCovariance) {
   constexpr int kDraws = 4000;
   const Identification& id = identified();
   const int rigid = id.space.rigid(), count = rigid + 6;

@@ -63,7 +63,7 @@ void print(const Group& group, const Identification& id, const std::vector<doubl
   std::cout << " " << id.reason << "\n";
 }
 
-TEST(IdentifyIndependentSimulation, BaseParametersFromHealthyLogs) {
+TEST(IdentifyIndependentSimulation, GivesTheBaseParametersFromHealthyLogs) {
   const std::string folder = testing::shared_data();
   if (folder.empty()) return;
   for (const Group& group : kGroups) {

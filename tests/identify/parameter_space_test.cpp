@@ -47,7 +47,7 @@ TEST(ParameterSpace, VerticalDoublePendulumHasItsGravityMoments) {
   EXPECT_EQ(space.base[0].meaning, "I1 + m2 + jr1");
 }
 
-TEST(ParameterSpace, RotorsFeltApartFromTheLinksAreBaseParameters) {
+TEST(ParameterSpace, RotorsThatActSeparatelyFromTheLinksAreBaseParameters) {
   Robot nominal = preset_robot("RRP"), truth = nominal;
   truth = with_masses_and_lengths(truth, {1.3, 0.8, 0.5}, {0.9, 0.7, 0.0});
   truth.chain.rotor_inertia = {0.3, 0.02, 0.1};
@@ -69,7 +69,7 @@ TEST(ParameterSpace, OneSlidingAxisHasOneMass) {
   EXPECT_EQ(names(parameter_space(robot)), (std::vector<std::string>{"m1"}));
 }
 
-TEST(ParameterSpace, FourAxesAddTheTool) {
+TEST(ParameterSpace, AFourthAxisAddsTheInertiaOfTheTool) {
   const auto all = names(parameter_space(preset_robot("RRPR")));
   ASSERT_GE(all.size(), 5u);
   EXPECT_EQ(all[3], "m3");

@@ -24,7 +24,7 @@ PhysicalFit solve(const Robot& nominal, KnownValue payload = {0.0, 0.0}, double 
   return physical_parameters(nominal, space, estimates);
 }
 
-TEST(PhysicalParameters, NoMassComesOfBaseParametersThatAreNoNumbers) {
+TEST(PhysicalParameters, BaseParametersThatAreNaNGiveNoMass) {
   const Robot robot = preset_robot("RRP");
   const ParameterSpace space = parameter_space(robot);
   const Eigen::VectorXd none = Eigen::VectorXd::Constant(space.count(), std::nan(""));
@@ -34,7 +34,7 @@ TEST(PhysicalParameters, NoMassComesOfBaseParametersThatAreNoNumbers) {
     EXPECT_FALSE(e.identifiable && std::isfinite(e.value)) << e.name;
 }
 
-TEST(PhysicalParameters, WithoutAFactTheMissingOneIsNamed) {
+TEST(PhysicalParameters, AMissingFactIsNamed) {
   const PhysicalFit fit = solve(preset_robot("RRP"));
   EXPECT_FALSE(fit.guessed_lengths.empty());
   for (const auto& e : fit.parameters) {
@@ -45,7 +45,7 @@ TEST(PhysicalParameters, WithoutAFactTheMissingOneIsNamed) {
   }
 }
 
-TEST(PhysicalParameters, ALengthThatIsNotToldIsGuessedFromPositiveMasses) {
+TEST(PhysicalParameters, AnUnknownLengthIsGuessedFromPositiveMasses) {
   Robot nominal = preset_robot("RRP"), truth = nominal;
   nominal.known["l1"] = {0.35, 0.0};
   truth = with_masses_and_lengths(truth, {8.0, 5.0, 2.5}, {0.35, 0.3, 0.0});
@@ -61,7 +61,7 @@ TEST(PhysicalParameters, ALengthThatIsNotToldIsGuessedFromPositiveMasses) {
   EXPECT_EQ(fit.lengths[0], 0.35);
 }
 
-TEST(PhysicalParameters, OneLengthClosesAllMassesAndLengths) {
+TEST(PhysicalParameters, OneKnownLengthDeterminesAllMassesAndLengths) {
   Robot robot = preset_robot("RRP");
   robot.known["l1"] = {0.35, 0.0};
   const PhysicalFit fit = solve(robot);
@@ -73,7 +73,7 @@ TEST(PhysicalParameters, OneLengthClosesAllMassesAndLengths) {
   }
 }
 
-TEST(PhysicalParameters, AKnownPayloadClosesAllMassesAndLengths) {
+TEST(PhysicalParameters, AKnownPayloadDeterminesAllMassesAndLengths) {
   const PhysicalFit fit = solve(preset_robot("RRP"), {1.0, 0.0}, 1.0);
   const double truth[] = {8.0, 5.0, 2.5, 0.35, 0.3};
   ASSERT_EQ(fit.parameters.size(), 5u);
@@ -83,7 +83,7 @@ TEST(PhysicalParameters, AKnownPayloadClosesAllMassesAndLengths) {
   }
 }
 
-TEST(PhysicalParameters, ADoubtfulPayloadIsWeighedByGravity) {
+TEST(PhysicalParameters, AnUncertainPayloadIsWeighedByGravity) {
   const PhysicalFit fit = solve(preset_robot("RRP"), {1.3, 0.5}, 1.0);
   ASSERT_EQ(fit.parameters.size(), 5u);
   EXPECT_EQ(fit.parameters[3].name, "l1");
@@ -109,7 +109,7 @@ PhysicalFit solve_arm(double rotor_1, double relative_std) {
   return physical_parameters(nominal, space, estimates);
 }
 
-TEST(PhysicalParameters, LinksThatAreWhatTheyAreTakenForContradictNothing) {
+TEST(PhysicalParameters, LinksOfTheAssumedShapeGiveNoContradiction) {
   const PhysicalFit fit = solve_arm(0.0, 1e-3);
   EXPECT_LT(fit.contradiction, 1.1);
   EXPECT_TRUE(fit.hardly_identifiable.empty());

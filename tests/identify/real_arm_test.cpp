@@ -43,7 +43,7 @@ Identification identify_undisturbed(const std::string& folder, const std::string
   return identify(logs, robot);
 }
 
-TEST(IdentifyRealArm, NoisyVelocityDoesNotDrownItsInertia) {
+TEST(IdentifyRealArm, NoisyVelocityDoesNotHideTheInertia) {
   const std::string folder = testing::shared_data();
   if (folder.empty()) return;
   const Identification id = identify_excitation(folder, 50.0);
@@ -59,7 +59,7 @@ TEST(IdentifyRealArm, NoisyVelocityDoesNotDrownItsInertia) {
   }
 }
 
-TEST(IdentifyRealArm, AnUndrivenJointGivesNoAbsurdRobot) {
+TEST(IdentifyRealArm, AnUndrivenJointGivesPlausibleParameters) {
   const std::string folder = testing::shared_data();
   if (folder.empty()) return;
   const Identification id =
@@ -73,7 +73,7 @@ TEST(IdentifyRealArm, AnUndrivenJointGivesNoAbsurdRobot) {
   std::cout << to_string(id.status) << "; " << id.reason << "\n";
 }
 
-TEST(IdentifyRealArm, NoJointsWindowsAreTooShortForTheOther) {
+TEST(IdentifyRealArm, WindowsOfEachJointAreLongEnoughForTheOther) {
   const std::string folder = testing::shared_data();
   if (folder.empty()) return;
   Robot robot = double_pendulum(0.2);

@@ -48,11 +48,11 @@ const Identification& found() {
   return id;
 }
 
-TEST(IdentifyToolAxis, TheLengthBeforeTheToolIsThatOfTheIdentifiedRobot) {
+TEST(IdentifyToolAxis, TheLengthBeforeTheToolIsIdentified) {
   EXPECT_NEAR(found().robot.chain.length[1], kSecond_m, 0.002 * kSecond_m);
 }
 
-TEST(IdentifyToolAxis, AToolOffItsAxisGivesTheTorquesOfTheTruth) {
+TEST(IdentifyToolAxis, TheIdentifiedRobotWithAnEccentricToolHasTheTrueTorques) {
   const Robot robot = truth();
   Random random(80);
   Vector worst = Vector::Zero(4), largest = Vector::Zero(4);

@@ -36,7 +36,7 @@ bool is_late(const Identification& id) {
                      [](double delay) { return delay != 0.0; });
 }
 
-TEST(TorqueDelay, AHeldTorqueIsSaidWithoutOne) {
+TEST(TorqueDelay, AHeldTorqueIsReportedWithoutADelay) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const Identification id = identified(seed);
     EXPECT_FALSE(is_late(id)) << seed;

@@ -49,7 +49,7 @@ TEST(UsualMotion, IsTheRangeTheRmsOfTheSpeedAndTheLargestTorque) {
   EXPECT_EQ(usual.torque_scale, std::vector<double>{8.0});
 }
 
-TEST(UsualMotion, TakesTheChangeOfThePositionWhereNoVelocityWasLogged) {
+TEST(UsualMotion, UsesTheChangeOfThePositionIfNoVelocityWasRecorded) {
   Log log = alternating(100);
   log.dq.clear();
   EXPECT_NEAR(usual_in(log).velocity_scale[0], 40.0, 1e-9) << "0.4 m in 10 ms";

@@ -123,7 +123,7 @@ std::string words_of(const Identification& id) {
   return words;
 }
 
-TEST(WrongInputs, NoneConvergesToWrongMassesAndMostAreNamed) {
+TEST(WrongInputs, NeverConvergeToWrongMassesAndMostAreNamed) {
   const ClosedFormScara scara;
   ClosedFormRun run;
   run.duration_s = 4.0;

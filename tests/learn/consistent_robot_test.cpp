@@ -54,7 +54,7 @@ TEST(ConsistentRobot, ALogWithAFaultAmongHealthyOnesIsNamedAndLeftOut) {
   EXPECT_TRUE(trusted.doubts.empty());
 }
 
-TEST(ConsistentRobot, AtACoarseRateALogThatNoOtherLeadsThroughIsLeftOut) {
+TEST(ConsistentRobot, AtACoarseRateALogThatContradictsTheOthersIsLeftOut) {
   const std::string folder = FAULTLINE_SOURCE_DIR "/sample_logs/bench/";
   std::deque<std::unique_ptr<LogSource>> logs;
   std::vector<LogSource*> sources;
@@ -76,7 +76,7 @@ TEST(ConsistentRobot, HealthyLogsAreAllKept) {
   EXPECT_TRUE(trusted.doubts.empty());
 }
 
-TEST(ConsistentRobot, TwoLogsThatContradictEachOtherAreKeptWithADoubt) {
+TEST(ConsistentRobot, TwoLogsThatContradictEachOtherAreKeptWithACaveat) {
   Given given;
   given.add("a.csv", {});
   given.add("weak.csv", {weak_drive()});
@@ -86,7 +86,7 @@ TEST(ConsistentRobot, TwoLogsThatContradictEachOtherAreKeptWithADoubt) {
   EXPECT_NE(trusted.doubts[0].find(".csv"), std::string::npos) << trusted.doubts[0];
 }
 
-TEST(ConsistentRobot, AskedToKeepAllLogsItDoubtsInsteadOfLeavingOut) {
+TEST(ConsistentRobot, AnOptionKeepsAllLogsWithACaveat) {
   Given given;
   given.add("a.csv", {});
   given.add("b.csv", {});
@@ -98,7 +98,7 @@ TEST(ConsistentRobot, AskedToKeepAllLogsItDoubtsInsteadOfLeavingOut) {
   EXPECT_EQ(trusted.doubts.size(), 1u);
 }
 
-TEST(LearnDoubts, ARobotThatDoesNotExplainItsLogsIsRefused) {
+TEST(LearnCaveats, ARobotThatDoesNotExplainItsLogsIsRefused) {
   Log log = simulate(small_robot(), small_run(12.0), 50).log;
   for (auto& joint : log.tau)
     for (double& value : joint) value = -value;
@@ -113,7 +113,7 @@ TEST(LearnDoubts, ARobotThatDoesNotExplainItsLogsIsRefused) {
   }
 }
 
-TEST(LearnDoubts, WhereNoSimulatedFaultShowsTheReasonIsSaid) {
+TEST(LearnCaveats, TheReasonIsStatedIfNoSimulatedFaultShows) {
   try {
     training_cases({}, Model{});
     FAIL() << "nothing to train on was enough";
@@ -122,7 +122,7 @@ TEST(LearnDoubts, WhereNoSimulatedFaultShowsTheReasonIsSaid) {
   }
 }
 
-TEST(LearnDoubts, AForcedModelIsMarkedAndEachDiagnosisSaysWhy) {
+TEST(LearnCaveats, AForcedModelIsMarkedAndEachDiagnosisStatesTheReason) {
   Given given;
   given.add("a.csv", {});
   given.add("weak.csv", {weak_drive()});
@@ -140,7 +140,7 @@ TEST(LearnDoubts, AForcedModelIsMarkedAndEachDiagnosisSaysWhy) {
   EXPECT_NE(diagnosis.model.notes[0].find(read.doubts[0]), std::string::npos);
 }
 
-TEST(ModelCaveats, AnUnexplainedRobotIsAGraveDoubtAndARoughOneAMinorOne) {
+TEST(ModelCaveats, AnUnexplainedRobotIsAGraveAndAPoorlyExplainedOneAMinorCaveat) {
   Identification identification;
   identification.status = IdentificationStatus::unexplained;
   EXPECT_TRUE(caveats_of(identification).is_grave());
@@ -151,13 +151,13 @@ TEST(ModelCaveats, AnUnexplainedRobotIsAGraveDoubtAndARoughOneAMinorOne) {
   EXPECT_TRUE(listed(caveats_of(identification)).empty());
 }
 
-TEST(ModelCaveats, GraveOnesAndContradictingLogsStandAgainstHealthyMinorOnesDoNot) {
+TEST(ModelCaveats, OnlyMinorCaveatsAllowAHealthyVerdict) {
   const ModelCaveats doubts{{"grave"}, {"contradicting"}, {"minor"}};
   EXPECT_EQ(against_healthy(doubts), (std::vector<std::string>{"grave", "contradicting"}));
   EXPECT_EQ(listed(doubts), (std::vector<std::string>{"grave", "contradicting", "minor"}));
 }
 
-TEST(ModelCaveats, AModelThatMissesFaultsOrAlarmsForNothingIsDoubted) {
+TEST(ModelCaveats, AModelWithMissedFaultsOrFalseAlarmsHasACaveat) {
   Validation validation;
   ValidationRow& row = validation.rows.emplace_back();
   row.runs = 100;
@@ -175,7 +175,7 @@ TEST(ModelCaveats, AModelThatMissesFaultsOrAlarmsForNothingIsDoubted) {
   EXPECT_FALSE(caveats_of(validation, true).is_grave()) << "second residuals judge, too";
 }
 
-TEST(ModelCaveats, FrictionIsDoubtedWhereItIsSurelyNegative) {
+TEST(ModelCaveats, SurelyNegativeFrictionIsACaveat) {
   Identification identification;
   identification.status = IdentificationStatus::converged;
   auto friction = [&](const char* name, double value, double half_width) {

@@ -14,7 +14,7 @@
 namespace faultline {
 namespace {
 
-TEST(ExplainedRobot, TheTwinIsTheRobotThatItsRunsAreJudgedBy) {
+TEST(ExplainedRobot, TheTwinHasTheNoiseAndTheVariancesOfTheModel) {
   std::vector<MemorySource> days;
   for (std::uint64_t day = 1; day <= 3; ++day)
     days.emplace_back(testing::simulate_closed_form({}, {.duration_s = 10.0,
@@ -50,7 +50,7 @@ TEST(ExplainedRobot, TheTwinIsTheRobotThatItsRunsAreJudgedBy) {
   EXPECT_EQ(twin.covariance(space.viscous(0), space.viscous(0)), 0.0);
 }
 
-TEST(StatedRanges, FrictionMayChangeWithinTheLogAsFarAsFromDayToDay) {
+TEST(StatedRanges, ApplyToAllFrictionEffectsOfTheDay) {
   const BalanceModel& learned = testing::scara_model();
   NormalRange stated;
   stated.friction = 0.6;

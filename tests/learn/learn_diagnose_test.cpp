@@ -25,7 +25,7 @@ Diagnosis diagnosed(const Learned& learned, const Log& log, int segment_rows = 4
   return diagnose(source, learned.model, learned.cases, options);
 }
 
-TEST(LearnDiagnose, FindsFaultsAndKeepsSilentOtherwise) {
+TEST(LearnDiagnose, FindsFaultsAndRaisesNoFalseAlarm) {
   const Learned learned = learn_small();
   EXPECT_EQ(diagnosed(learned, run_with(FaultKind::none, 0.0)).verdict, Verdict::healthy);
   for (const FaultKind kind : {FaultKind::free_swinging, FaultKind::locked, FaultKind::payload_change}) {
@@ -49,7 +49,7 @@ TEST(LearnDiagnose, ThreadsAndSegmentBordersDoNotChangeTheModel) {
   EXPECT_TRUE(one == model_to_json(learn_small(options, 100).model));
 }
 
-TEST(LearnDiagnose, AModelTellsWhatItWasSimulatedWith) {
+TEST(LearnDiagnose, AModelStoresTheOptionsOfItsTwin) {
   LearnOptions options = quick_learning();
   options.twin.pd_share = 0.5;
   const std::string text = model_to_json(learn_small(options).model);

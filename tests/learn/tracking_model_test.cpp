@@ -32,7 +32,7 @@ Diagnosis diagnosed(const Log& log, const Model& model = learned().model) {
   return diagnose(source, model, {});
 }
 
-TEST(TrackingModel, LogsWithoutTorqueTeachAModelThatIsReadBack) {
+TEST(TrackingModel, LogsWithoutTorqueGiveAModelThatIsReadBack) {
   EXPECT_FALSE(learned().model.has_mechanics());
   const Model model = model_from_json(model_to_json(learned().model), "model");
   EXPECT_EQ(model_to_json(model), model_to_json(learned().model));
@@ -40,7 +40,7 @@ TEST(TrackingModel, LogsWithoutTorqueTeachAModelThatIsReadBack) {
   EXPECT_EQ(render_text(diagnosed(stall, model)).find("inconclusive"), std::string::npos);
 }
 
-TEST(TrackingModel, AHealthyLogFollowsAndTheReportSaysWhatItCannotSee) {
+TEST(TrackingModel, AHealthyLogIsHealthyAndTheReportStatesItsBlindSpots) {
   const Diagnosis diagnosis = diagnosed(SteppedJoint{.seed = 4}.log(30.0));
   EXPECT_EQ(diagnosis.verdict, Verdict::healthy);
   EXPECT_EQ(diagnosis.verdict_reason, "every joint that is judged follows its reference");
@@ -49,7 +49,7 @@ TEST(TrackingModel, AHealthyLogFollowsAndTheReportSaysWhatItCannotSee) {
   EXPECT_NE(diagnosis.cannot_see[1].find("errors below"), std::string::npos);
 }
 
-TEST(TrackingModel, AStallIsALockedJointOnce) {
+TEST(TrackingModel, AStallIsOneLockedJoint) {
   const Diagnosis diagnosis =
       diagnosed(SteppedJoint{.stall_from_s = 9.0, .stall_to_s = 10.0, .seed = 5}.log(20.0));
   ASSERT_EQ(diagnosis.faults.size(), 1u);
@@ -60,7 +60,7 @@ TEST(TrackingModel, AStallIsALockedJointOnce) {
   EXPECT_LT(fault.end_s, 12.5);
 }
 
-TEST(TrackingModel, LostStepsLastToTheEnd) {
+TEST(TrackingModel, LostStepsAreAFaultThatLastsToTheEnd) {
   const Diagnosis diagnosis = diagnosed(
       SteppedJoint{.stall_from_s = 9.0, .stall_to_s = 9.3, .counts_steps = true, .seed = 6}.log(20.0));
   ASSERT_EQ(diagnosis.faults.size(), 1u);

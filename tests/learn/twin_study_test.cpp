@@ -57,7 +57,7 @@ TEST(Detectability, IsTheSizeThatNineOfTenLogsShow) {
   EXPECT_NEAR(reach[0].median_delay_s, 0.1, 1e-12);
 }
 
-TEST(Detectability, WhereALogOfTenShowsNoSizeThereIsNone) {
+TEST(Detectability, HasNoSizeIfMoreThanOneLogInTenShowsNone) {
   const double never = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(std::isnan(
       detectability_of(runs_found_from(0.9), {{{kLoss, never}}, {{kLoss, 0.1}}, {{kLoss, never}}})[0].size));

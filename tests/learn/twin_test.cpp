@@ -43,7 +43,7 @@ TEST(TwinRun, TheSameSeedGivesTheSameRunBitForBit) {
   }
 }
 
-TEST(TwinRun, AHealthyRunIsWholeAndExplainedByTheRobot) {
+TEST(TwinRun, AHealthyRunIsCompleteAndExplainedByTheRobot) {
   const TwinWorld world;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     const TwinRun run = world.run(FaultKind::none, seed);
@@ -88,7 +88,7 @@ TEST(TwinRun, TheOnsetLiesInTheMiddleOfTheRun) {
   EXPECT_GT(latest, 0.6);
 }
 
-TEST(TwinRun, BeforeTheOnsetItIsTheHealthyRunOfTheSameSeed) {
+TEST(TwinRun, EqualsTheHealthyRunOfTheSameSeedBeforeTheOnset) {
   const TwinWorld world;
   for (const FaultKind kind : {FaultKind::sensor_bias, FaultKind::locked, FaultKind::payload_change}) {
     const Pair pair = pair_of(world, kind, 3);
@@ -176,7 +176,7 @@ TEST(TwinSizes, APushLastsAtLeastASample) {
   }
 }
 
-TEST(TwinSizes, MoreLoadIsAShareOfWhatTheRobotCarries) {
+TEST(TwinSizes, MoreLoadIsAShareOfTheMassThatTheRobotCarries) {
   TwinWorld world;
   world.motion.sizes.payload = 1.0;  // half of what it carries
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -203,7 +203,7 @@ TEST(TwinSizes, ALockedJointRestsAndAStuckEncoderRepeats) {
     EXPECT_EQ(stuck.log.q[0][k], stuck.log.q[0][k - 1]);
 }
 
-TEST(TwinRun, ALogWithoutVelocityHasATwinWithout) {
+TEST(TwinRun, ALogWithoutVelocityHasATwinWithoutVelocity) {
   TwinWorld world;
   world.twin.has_velocity = false;
   const TwinRun run = world.run(FaultKind::none, 1);

@@ -26,7 +26,7 @@ SimulationSpec carrying(SimulationSpec spec, const std::vector<Carried>& pieces)
   return spec;
 }
 
-TEST(WorkPieces, RowsWithoutThemAreThoseBeforeAndAfterTheyAreCarried) {
+TEST(WorkPieces, RowsWithoutAPieceLieBeforeAndAfterItIsCarried) {
   MemorySource often(simulate(known_rrp(), rrp_run(20.0), 71).log),
       never(simulate(known_rrp(), rrp_run(20.0), 72).log);
   const std::vector<LogSource*> logs = {&often, &never};
@@ -51,7 +51,7 @@ TEST(WorkPieces, RowsWithoutThemAreThoseBeforeAndAfterTheyAreCarried) {
   EXPECT_TRUE(rows_without_work_piece(logs, days).empty()) << "a robot that knows of none keeps all rows";
 }
 
-TEST(WorkPieces, TheRobotIsIdentifiedWithoutThem) {
+TEST(WorkPieces, TheRobotIsIdentifiedFromRowsWithoutAPiece) {
   std::deque<MemorySource> sources;
   for (int day = 0; day < 3; ++day)
     sources.emplace_back(
@@ -69,7 +69,7 @@ TEST(WorkPieces, TheRobotIsIdentifiedWithoutThem) {
   EXPECT_NEAR(mass_of(robot.identification), 2.0, 0.05);
 }
 
-TEST(WorkPieces, StaticFrictionThatHoldsADriveAtRestIsNone) {
+TEST(WorkPieces, StaticFrictionThatHoldsADriveAtRestIsNotAWorkPiece) {
   Robot geared = small_robot();
   geared.chain.rotor_inertia = {20.0};
   const double friction = geared.chain.friction[0].coulomb, held[] = {0.9, -0.9, 0.8};  // share, by day
@@ -109,7 +109,7 @@ std::vector<ExplainedFault> faults_with_piece(double stated_kg) {
   return explain_whole_log(uniform_log(carried, model.sample_period_s), model.explain).faults;
 }
 
-TEST(WorkPieces, OneThatTheRobotFileStatesIsNoFault) {
+TEST(WorkPieces, APieceThatTheRobotFileStatesIsNotAFault) {
   const std::vector<ExplainedFault> unstated = faults_with_piece(0.0);
   ASSERT_FALSE(unstated.empty());
   EXPECT_EQ(unstated.front().claim.kind, FaultKind::payload_change);

@@ -38,7 +38,7 @@ TEST(ColumnMatching, ASecondTorqueIsTheCommandedOrTheMeasuredOne) {
       << "the only torque is the torque";
 }
 
-TEST(ColumnMatching, NamesThatCountFromZero) {
+TEST(ColumnMatching, NamesThatCountFromZeroAreMatched) {
   EXPECT_EQ(matched({"timestamp", "target_q_0", "target_q_1", "actual_q_0", "actual_q_1", "actual_qd_0",
                      "actual_qd_1", "target_moment_0", "target_moment_1", "actual_TCP_pose_0"}),
             (Names{{"t", "timestamp"},
@@ -52,7 +52,7 @@ TEST(ColumnMatching, NamesThatCountFromZero) {
                    {"q_ref2", "target_q_1"}}));
 }
 
-TEST(ColumnMatching, JointStatesNames) {
+TEST(ColumnMatching, NamesOfJointStatesAreMatched) {
   EXPECT_EQ(matched({"__time", "/joint_states/position[0]", "/joint_states/position[1]",
                      "/joint_states/velocity[0]", "/joint_states/velocity[1]", "/joint_states/effort[0]",
                      "/joint_states/effort[1]", "/joint_states/header/stamp/nanosec"}),
@@ -65,7 +65,7 @@ TEST(ColumnMatching, JointStatesNames) {
                    {"tau2", "/joint_states/effort[1]"}}));
 }
 
-TEST(ColumnMatching, PlainWordsThatCountFromOne) {
+TEST(ColumnMatching, PlainWordsThatCountFromOneAreMatched) {
   EXPECT_EQ(matched({"time", "position_1", "position_2", "speed_1", "speed_2", "torque_1", "torque_2"}),
             (Names{{"t", "time"},
                    {"q1", "position_1"},
@@ -81,7 +81,7 @@ TEST(ColumnMatching, OneAxisNeedsNoNumbers) {
             (Names{{"t", "t"}, {"q1", "qm"}, {"q_ref1", "qg"}, {"tau1", "force"}}));
 }
 
-TEST(ColumnMatching, ErrorsLimitsAndAccelerationsAreNoPositions) {
+TEST(ColumnMatching, ErrorsLimitsAndAccelerationsAreNotPositions) {
   EXPECT_EQ(matched({"t", "q1", "q_error1", "position_limit_1", "qdd1"}), (Names{{"t", "t"}, {"q1", "q1"}}));
 }
 
@@ -92,16 +92,16 @@ TEST(ColumnMatching, SecondsAndNanosecondsMakeATime) {
   EXPECT_EQ(matching.channels[0].nanoseconds_column, 0);
 }
 
-TEST(ColumnMatching, TheMapWinsOverNames) {
+TEST(ColumnMatching, TheColumnMapOverridesNames) {
   EXPECT_EQ(matched({"t", "q1", "arm"}, {{"q1", {.name = "arm"}}}), (Names{{"t", "t"}, {"q1", "arm"}}));
 }
 
-TEST(ColumnMatching, AJointWithoutAColumnIsTold) {
+TEST(ColumnMatching, AMissingColumnOfAJointIsReported) {
   const std::vector<RawColumn> columns{{"t", ""}, {"q1", ""}, {"q2", ""}, {"tau1", ""}};
   EXPECT_NE(match_columns(columns, {}, "log").issues.find("channel_missing", "tau2"), nullptr);
 }
 
-TEST(ColumnMatching, AJointWithoutAColumnHidesNoOther) {
+TEST(ColumnMatching, AMissingColumnOfAJointHidesNoOtherJoint) {
   EXPECT_EQ(
       matched({"t", "q1", "q2", "q3", "tau1", "tau3"}),
       (Names{{"t", "t"}, {"q1", "q1"}, {"q2", "q2"}, {"q3", "q3"}, {"tau1", "tau1"}, {"tau3", "tau3"}}));
@@ -119,7 +119,7 @@ TEST(ColumnMatching, AJointWithoutAColumnHidesNoOther) {
       << "unless they do not fit";
 }
 
-TEST(ColumnMatching, APositionThatIsMissingInTheMiddleIsTold) {
+TEST(ColumnMatching, AMissingPositionBetweenOthersIsReported) {
   const std::vector<RawColumn> columns{{"t", ""}, {"q1", ""}, {"q3", ""}};
   const Matching matching = match_columns(columns, {}, "log");
   EXPECT_EQ(matching.joints, 1);
@@ -127,7 +127,7 @@ TEST(ColumnMatching, APositionThatIsMissingInTheMiddleIsTold) {
   EXPECT_EQ(matching.issues.find("channel_missing", "q2")->severity, Severity::severe);
 }
 
-TEST(ColumnMatching, CartesianAndGripperColumnsAreNoJoints) {
+TEST(ColumnMatching, CartesianAndGripperColumnsAreNotJoints) {
   EXPECT_EQ(
       matched({"time", "CartPos_X", "CartPos_Y", "CartPos_Z", "JointPos_1", "JointPos_2", "GripperForce_%"}),
       (Names{{"t", "time"}, {"q1", "JointPos_1"}, {"q2", "JointPos_2"}}));
@@ -139,7 +139,7 @@ Matching matching_with(const RawColumn& column, const ColumnMap& map = {}) {
   return match_columns({{"t", ""}, {"q1", ""}, column}, map, "log");
 }
 
-TEST(ColumnMatching, ACurrentIsNoTorqueWithoutAScale) {
+TEST(ColumnMatching, ACurrentIsNotATorqueWithoutAScale) {
   for (const RawColumn& column :
        {RawColumn{"tau1", "A"}, {"effort_1", "mA"}, {"torque_1", "%"}, {"tau1", "V"}}) {
     try {
@@ -159,7 +159,7 @@ TEST(ColumnMatching, ACurrentIsNoTorqueWithoutAScale) {
   EXPECT_THROW(matching_with({"i1", ""}, {{"tau1", {.name = "i1", .unit = "A"}}}), Error);
 }
 
-TEST(ColumnMatching, WhatIsMeasuredInAnotherDimensionIsNotTaken) {
+TEST(ColumnMatching, AColumnInAnotherDimensionIsNotMatched) {
   const Matching speed = matching_with({"Speed", "%"});
   EXPECT_EQ(speed.channels.size(), 2u);
   EXPECT_NE(speed.issues.find("unit_of_other_dimension", "dq1"), nullptr);
@@ -170,7 +170,7 @@ TEST(ColumnMatching, WhatIsMeasuredInAnotherDimensionIsNotTaken) {
   EXPECT_THROW(match_columns({{"t", ""}, {"q1", "V"}}, {}, "log"), Error);
 }
 
-TEST(ColumnMatching, SeveralCandidatesAreTold) {
+TEST(ColumnMatching, SeveralCandidateColumnsAreReported) {
   const std::vector<RawColumn> columns{{"t", ""}, {"q1", ""}, {"tau_con1", ""}, {"tau_ctrl1", ""}};
   const Matching matching = match_columns(columns, {}, "log");
   ASSERT_NE(matching.issues.find("channel_ambiguous", "tau1"), nullptr);
@@ -187,7 +187,7 @@ TEST(ColumnMatching, AChannelThatDoesNotExistIsAUsageError) {
   }
 }
 
-TEST(Units, KnownAndUnknown) {
+TEST(Units, KnownUnitsHaveFactorsAndUnknownUnitsHaveNone) {
   EXPECT_DOUBLE_EQ(si_factor("deg").value(), std::numbers::pi / 180.0);
   EXPECT_DOUBLE_EQ(si_factor("rpm").value(), std::numbers::pi / 30.0);
   EXPECT_DOUBLE_EQ(si_factor("Grad").value(), std::numbers::pi / 180.0) << "German for degree";
@@ -200,7 +200,7 @@ TEST(Units, KnownAndUnknown) {
   EXPECT_FALSE(si_factor("furlong"));
 }
 
-TEST(Units, SplitFromTheName) {
+TEST(Units, AreSplitFromTheNameOfAColumn) {
   auto split = [](const char* text) {
     const NameAndUnit parts = split_unit(text);
     return parts.name + "|" + parts.unit;

@@ -40,7 +40,7 @@ TEST(Derive, ParabolaHasItsExactVelocityToTheEnds) {
   for (int i = 0; i < log.rows(); ++i) EXPECT_NEAR(log.dq[0][i], 6.0 * log.time[i] - 1.0, 1e-8) << i;
 }
 
-TEST(Derive, AMissingPositionDoesNotSpread) {
+TEST(Derive, AMissingPositionDoesNotAffectNeighbouringVelocities) {
   const Log log = read_all(*with_velocity(source_of(parabola(), 4096)));
   for (int i = 45; i < 55; ++i) EXPECT_NEAR(log.dq[1][i], 5.0 * std::cos(5.0 * log.time[i]), 0.03) << i;
 }
@@ -70,7 +70,7 @@ Log read_resampled(std::unique_ptr<LogSource> source, const ResampleOptions& opt
   return read_all(*resampled(*source, options));
 }
 
-TEST(Resample, StraightLinesBetweenSamples) {
+TEST(Resample, SamplesAreInterpolatedLinearly) {
   Log log;
   log.time = {0.0, 1.0, 2.0, 3.0};
   log.q = {{0.0, 10.0, 20.0, std::nan("")}};

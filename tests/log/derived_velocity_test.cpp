@@ -36,7 +36,7 @@ void derive(Log& log, int back, int ahead) {
     log.dq[0][k] = (log.q[0][k + ahead] - log.q[0][k - back]) / (log.time[k + ahead] - log.time[k - back]);
 }
 
-TEST(DerivedVelocity, AMeasuredVelocityIsNone) {
+TEST(DerivedVelocity, AMeasuredVelocityIsNotADerivedVelocity) {
   EXPECT_FALSE(derived(swinging(1e-4)));
   EXPECT_FALSE(derived(swinging(1e-6)));
 }
@@ -49,7 +49,7 @@ TEST(DerivedVelocity, BackwardForwardAndCentralDifferencesAreRecognised) {
   }
 }
 
-TEST(DerivedVelocity, RowsLostAfterwardsDoNotHideIt) {
+TEST(DerivedVelocity, LostRowsDoNotHideADerivedVelocity) {
   Log log = swinging(1e-4), kept;
   derive(log, 1, 0);
   for (int k = 0; k < log.rows(); ++k)
@@ -89,7 +89,7 @@ TEST(DerivedVelocity, ADelayWithinTheNoiseDoesNotMatter) {
   EXPECT_FALSE(derived(log));
 }
 
-TEST(DerivedVelocity, AJointAtRestAndALogWithoutVelocityTellNothing) {
+TEST(DerivedVelocity, AJointAtRestAndALogWithoutVelocityHaveNoDerivedVelocity) {
   Log log = swinging(0.0);
   log.q[0].assign(kRows, 0.4);
   log.dq[0].assign(kRows, 0.0);

@@ -31,7 +31,7 @@ TEST(LogChannels, EveryQuantityHasItsOwnSignals) {
     EXPECT_EQ(signals->size(), 1u);
 }
 
-TEST(LogChannels, ColumnsArePairedAndTheirNamesTaken) {
+TEST(LogChannels, ColumnsOfTwoLogsArePairedAndTheirNamesCopied) {
   const Log from = two_joints();
   Log to;
   to.dq.resize(2);

@@ -19,7 +19,7 @@ Log long_log() {
   return log;
 }
 
-TEST(Prefetch, ReadsByItselfWhenNoThreadCanBeStarted) {
+TEST(Prefetch, ReadsInTheCallingThreadIfNoThreadCanBeStarted) {
   const auto source = prefetched(std::make_unique<MemorySource>(long_log(), "a.csv", 100));
   const NoThreads limit;
   for (int time = 0; time < 2; ++time) {

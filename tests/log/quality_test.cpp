@@ -123,7 +123,7 @@ Log log_of_two() {
   return log;
 }
 
-TEST(Quality, OneFactorForAllJointsIsTheSamplePeriod) {
+TEST(Quality, OneFactorForAllJointsIsAWrongSamplePeriod) {
   Log log = log_of_two();
   for (double& t : log.time) t *= 0.5;
   const LogQuality quality = quality_in(log);
@@ -145,7 +145,7 @@ Log turning(double end, bool to_and_fro) {
   return log;
 }
 
-TEST(Quality, AJointThatTurnsOnAndOnIsNotSurelyInDegrees) {
+TEST(Quality, AJointThatTurnsWithoutEndIsNotSurelyInDegrees) {
   const LogQuality on = quality_in(turning(100.0, false)), back = quality_in(turning(100.0, true)),
                    fast = quality_in(turning(1000.0, false));
   ASSERT_NE(on.issues.find("unit_implausible", "q1"), nullptr);
@@ -167,13 +167,13 @@ TEST(Quality, AClockOrPositionsScaledByAPercentAreFoundWithTheFactor) {
   expect_issue(quality_in(log), kScaledMotion, "", "change 1.01");
 }
 
-TEST(Quality, APositionOfOneJointThatDriftsIsNoScaledClock) {
+TEST(Quality, ADriftingPositionOfOneJointIsNotAScaledClock) {
   Log log = log_of_two();
   for (double& value : log.q[1]) value *= 1.01;
   EXPECT_EQ(quality_in(log).issues.find(kScaledMotion), nullptr);
 }
 
-TEST(Quality, TimeInMillisecondsIsNoVelocityInMillimetres) {
+TEST(Quality, TimeInMillisecondsIsNotReportedAsVelocityInMillimetres) {
   Log log = log_of_two();
   for (double& t : log.time) t *= 1000.0;
   expect_issue(quality_in(log), "sample_period_contradicts_motion", "t", "in ms");
@@ -182,7 +182,7 @@ TEST(Quality, TimeInMillisecondsIsNoVelocityInMillimetres) {
   expect_issue(quality_in(log), "velocity_contradicts_position", "dq1", "the time seems to be in ms");
 }
 
-TEST(Quality, TwoJointsThatDisagreeDifferentlyAreNoMatterOfTime) {
+TEST(Quality, JointsWithDifferentFactorsAreNotAWrongSamplePeriod) {
   Log log = log_of_two();
   for (double& dq : log.dq[0]) dq *= 2.0;
   for (double& dq : log.dq[1]) dq *= 3.0;
@@ -194,7 +194,7 @@ TEST(Quality, TwoJointsThatDisagreeDifferentlyAreNoMatterOfTime) {
   expect_issue(quality_in(log), "velocity_contradicts_position", "dq2", "deg/s");
 }
 
-TEST(Quality, ASlidingAxisIsInMillimetresATurningOneInDegrees) {
+TEST(Quality, TheSuspectedUnitIsMillimetresForASlidingAndDegreesForATurningAxis) {
   Log log = clean_log();
   for (double& q : log.q[0]) q *= 1000.0;
   QualityState state;

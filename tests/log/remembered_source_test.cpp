@@ -110,7 +110,7 @@ TEST_F(RememberedLog, IssuesAreNotDoubled) {
   EXPECT_EQ(log.issues().rows_dropped(), source.issues().rows_dropped());
 }
 
-TEST_F(RememberedLog, RewoundInTheMiddleGoesOnWhereTheSourceStands) {
+TEST_F(RememberedLog, ContinuesAtThePlaceOfTheSourceAfterARewindInTheMiddle) {
   CountingSource source = opened();
   LogMemory memory;
   RememberedSource log(source, memory);
@@ -124,7 +124,7 @@ TEST_F(RememberedLog, RewoundInTheMiddleGoesOnWhereTheSourceStands) {
   EXPECT_EQ(source.rewound, 0);
 }
 
-TEST_F(RememberedLog, BeyondTheBudgetIsReadAgainAndKeepsNothing) {
+TEST_F(RememberedLog, IsReadAgainAndKeepsNothingBeyondTheBudget) {
   const std::int64_t segment_bytes = 4 * 6 * sizeof(double);
   for (const std::int64_t budget : {std::int64_t{0}, std::int64_t{1}, 3 * segment_bytes, 6 * segment_bytes}) {
     CountingSource source = opened();
@@ -139,7 +139,7 @@ TEST_F(RememberedLog, BeyondTheBudgetIsReadAgainAndKeepsNothing) {
   }
 }
 
-TEST_F(RememberedLog, ALogThatDoesNotFitLeavesTheMemoryToAnother) {
+TEST_F(RememberedLog, ALogThatDoesNotFitFreesItsMemoryForOthers) {
   const std::int64_t used = bytes_kept();
   ASSERT_GT(used, 0);
   CountingSource first = opened(), second = opened();
@@ -156,7 +156,7 @@ TEST_F(RememberedLog, ALogThatDoesNotFitLeavesTheMemoryToAnother) {
   EXPECT_EQ(both.free_bytes(), used + used / 2);
 }
 
-TEST_F(RememberedLog, AFailureIsTheSourcesOwnAndARewindReadsAgain) {
+TEST_F(RememberedLog, PassesOnAFailureOfTheSourceAndReadsAgainAfterARewind) {
   CountingSource source = opened();
   source.fails_at = 4;
   LogMemory memory;

@@ -74,7 +74,7 @@ TEST(RowOrder, ARowBeforeEarlierOnesIsLeftOutWhereNoRowIsMissing) {
   EXPECT_EQ(issues.find("time_backward", "t")->count, 2);
 }
 
-TEST(RowOrder, ARowThatComesLateGoesWhereItIsMissing) {
+TEST(RowOrder, ALateRowIsMovedToThePlaceWhereItIsMissing) {
   const auto [log, issues, runs] = ordered({0, 1, 2, 3, 5, 6, 7, 8, 9, 10, 4, 11, 12});
   EXPECT_EQ(log.time, clock_from(0, 13));
   EXPECT_EQ(log.q[0], (Values{0, 1, 2, 3, 10, 4, 5, 6, 7, 8, 9, 11, 12}));
@@ -110,7 +110,7 @@ TEST(RowOrder, MissingAndImpossibleTimesAreLeftOut) {
   EXPECT_EQ(issues.find("time_implausible", "t")->count, 2);
 }
 
-TEST(RowOrder, ATimeThatLeapsAheadOfWhatFollowsIsLeftOut) {
+TEST(RowOrder, ATimeFarAheadOfTheFollowingTimesIsLeftOut) {
   const auto [log, issues, runs] = ordered({0, 1, 2, 900, 3, 4});
   EXPECT_EQ(log.q[0], (Values{0, 1, 2, 4, 5}));
   ASSERT_NE(issues.find("time_leap", "t"), nullptr);
@@ -118,7 +118,7 @@ TEST(RowOrder, ATimeThatLeapsAheadOfWhatFollowsIsLeftOut) {
   EXPECT_EQ(issues.find("time_backward", "t"), nullptr);
 }
 
-TEST(RowOrder, ALeapThatStaysIsAGapAndKept) {
+TEST(RowOrder, AJumpOfTheClockThatLastsIsAGap) {
   const auto [log, issues, runs] = ordered({0, 1, 2, 900, 901});
   EXPECT_EQ(log.rows(), 5);
   EXPECT_TRUE(issues.empty());
@@ -137,7 +137,7 @@ TEST(RowOrder, AClockThatRestartsBeginsARunThatFollowsTheOneBefore) {
   EXPECT_EQ(issues.find("clock_restart", "t")->count, 2);
 }
 
-TEST(RowOrder, AClockThatIsSetBackALittleBeginsARunToo) {
+TEST(RowOrder, AClockThatIsSetBackALittleBeginsANewRun) {
   const auto [log, issues, runs] = ordered(clock_from(1000, 4000) + clock_from(4900.25, 300));
   EXPECT_EQ(log.rows(), 4300);
   EXPECT_EQ(runs.size(), 2u);
@@ -155,7 +155,7 @@ TEST(RowOrder, OneRunIsReadOnItsOwnClock) {
   EXPECT_EQ(issues.find("other_run", "t")->count, 50);
 }
 
-TEST(RowOrder, RowsThatAreSentTwiceAreNoRun) {
+TEST(RowOrder, RowsThatAreSentTwiceAreNotARun) {
   const Log once = log_at(clock_from(0, 100));
   RowOrder order;
   Issues issues;
@@ -169,7 +169,7 @@ TEST(RowOrder, RowsThatAreSentTwiceAreNoRun) {
   EXPECT_EQ(issues.find("time_repeated", "t")->count, 70);
 }
 
-TEST(RowOrder, ATimeOfDayGoesOnAfterMidnight) {
+TEST(RowOrder, ATimeOfDayContinuesAfterMidnight) {
   const auto [log, issues, runs] = ordered(clock_from(86350, 50) + clock_from(0, 40));
   EXPECT_EQ(log.time, clock_from(86350, 90));
   EXPECT_EQ(runs.size(), 1u);
@@ -178,14 +178,14 @@ TEST(RowOrder, ATimeOfDayGoesOnAfterMidnight) {
   EXPECT_EQ(issues.find("clock_restart", "t"), nullptr);
 }
 
-TEST(RowOrder, ARowOfTheDayBeforeMayComeAfterMidnight) {
+TEST(RowOrder, ARowFromBeforeMidnightMayArriveAfterIt) {
   Values time = clock_from(86350, 50) + clock_from(0, 40);
   std::rotate(time.begin() + 45, time.begin() + 46, time.begin() + 60);
   const auto [log, issues, runs] = ordered(time);
   EXPECT_EQ(log.time, clock_from(86350, 90));
 }
 
-TEST(RowOrder, ARunThatBeginsBeforeMidnightAgainFollowsOneThatPassedIt) {
+TEST(RowOrder, ANewRunBeforeMidnightFollowsARunThatPassedMidnight) {
   const Values night = clock_from(86350, 50) + clock_from(0, 40);
   for (const double evening : {86350.0, 86345.0, 86380.0, 80000.0}) {
     const Values again = evening < 86000.0
@@ -201,7 +201,7 @@ TEST(RowOrder, ARunThatBeginsBeforeMidnightAgainFollowsOneThatPassedIt) {
   }
 }
 
-TEST(RowOrder, RowsThatWereLostBeforeAShortLastRunAreSevereToo) {
+TEST(RowOrder, RowsThatWereLostBeforeAShortLastRunAreSevere) {
   const auto lost = ordered(clock_from(0, 100) + Values(30, std::nan("")) + clock_from(50, 2));
   EXPECT_NE(lost.issues.find("rows_not_judged", "t"), nullptr);
 }

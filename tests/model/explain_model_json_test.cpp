@@ -16,7 +16,7 @@ ExplainModel model() {
   return out;
 }
 
-TEST(ExplainModelJson, AModelThatWasReadExplainsALogToTheLastBit) {
+TEST(ExplainModelJson, AModelReadBackExplainsALogToTheLastBit) {
   const ExplainModel first = model();
   const ExplainModel second = explain_model_from_json(explain_model_to_json(first), "m");
   EXPECT_EQ(second.limits.nats, first.limits.nats);

@@ -61,7 +61,7 @@ TEST(ModelDamage, AFlippedBitIsRefused) {
   }
 }
 
-TEST(ModelDamage, NoMarkOfTheDigestCanBeTakenAway) {
+TEST(ModelDamage, AModelWithoutItsDigestOrOfAnEarlierSchemaIsRefused) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(model_text());
   json.erase("digest");
   EXPECT_NE(refusal(json.dump(1) + "\n").find("model sign"), std::string::npos);
@@ -70,7 +70,7 @@ TEST(ModelDamage, NoMarkOfTheDigestCanBeTakenAway) {
   EXPECT_NE(refusal(text).find("learn the model again"), std::string::npos) << "an older version";
 }
 
-TEST(ModelDamage, AModelWithoutAMemberIsRefusedByItsName) {
+TEST(ModelDamage, AMissingMemberOfAModelIsNamed) {
   for (const char* member :
        {"identity", "identification", "twin", "explain", "motion", "residual", "judges", "confidence"}) {
     nlohmann::ordered_json json = nlohmann::ordered_json::parse(model_text());
@@ -81,7 +81,7 @@ TEST(ModelDamage, AModelWithoutAMemberIsRefusedByItsName) {
   }
 }
 
-TEST(ModelDamage, EveryNumberHasARangeThatRefusesAWildOne) {
+TEST(ModelDamage, EveryNumberHasARangeThatRefusesExtremeValues) {
   nlohmann::ordered_json json =
       nlohmann::ordered_json::parse(resealed_model_text(nlohmann::ordered_json::parse(model_text())));
   std::map<std::string, nlohmann::ordered_json*> numbers;
@@ -99,7 +99,7 @@ TEST(ModelDamage, EveryNumberHasARangeThatRefusesAWildOne) {
   EXPECT_NO_THROW(check_model_ranges(nlohmann::json(json), "robot.model"));
 }
 
-TEST(ModelDamage, NumbersThatCannotBeAreRefusedInModelsWithoutDigest) {
+TEST(ModelDamage, ImpossibleNumbersAreRefusedInModelsWithoutDigest) {
   const auto with = [](const char* place, double number) {
     nlohmann::ordered_json json = nlohmann::ordered_json::parse(model_text());
     json[nlohmann::ordered_json::json_pointer(place)] = number;
@@ -119,7 +119,7 @@ TEST(ModelDamage, NumbersThatCannotBeAreRefusedInModelsWithoutDigest) {
   EXPECT_NE(with("/twin/quintic_share", 3.0), "it was read");
 }
 
-TEST(ModelDamage, AnEditThatIsSignedIsReadAndSaysSo) {
+TEST(ModelDamage, ASignedEditIsReadAndMarked) {
   std::string text = model_text();
   text.replace(text.find("\"name\": \"slide\""), 15, "\"name\": \"glide\"");
   EXPECT_NE(refusal(text).find("model sign"), std::string::npos);
@@ -133,7 +133,7 @@ TEST(ModelDamage, AnEditThatIsSignedIsReadAndSaysSo) {
   EXPECT_TRUE(model_to_json(model) == accepted);
 }
 
-TEST(ModelDamage, ASignatureDoesNotMakeAWildNumberGood) {
+TEST(ModelDamage, ASignatureDoesNotPermitAnExtremeNumber) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(model_text());
   json["evidence"]["trigger"] = 1e308;
   EXPECT_NE(refusal(signed_model_text(json.dump(1), "", "robot.model")), "it was read");

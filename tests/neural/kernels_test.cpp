@@ -75,7 +75,7 @@ MatrixXd gram_of(const MatrixXd& features, VectorUnit unit) {
   return lower(gram);
 }
 
-TEST(NeuralGram, IsTheProductWithItsTransposeAddedToWhatWasThere) {
+TEST(NeuralGram, AddsTheProductWithItsTransposeToTheMatrix) {
   const MatrixXd features = MatrixXd::Random(3 * kGramPanel, 150);
   MatrixXd gram = MatrixXd::Ones(features.rows(), features.rows());
   add_gram(features, gram);

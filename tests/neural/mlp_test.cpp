@@ -58,7 +58,7 @@ TEST(Mlp, ASampleDoesNotDependOnTheOthers) {
   for (int n = 0; n < 70; ++n) EXPECT_TRUE(forward(mlp, inputs.col(n)) == together.col(n)) << n;
 }
 
-TEST(Mlp, ForwardIsTheFormula) {
+TEST(Mlp, ForwardEqualsTheFormula) {
   const Mlp mlp = make_mlp({3, 4, 2}, OutputKind::linear, 5);
   const VectorXd x = VectorXd::Random(3);
   const VectorXd h = (mlp.layers[0].weights * x + mlp.layers[0].bias).array().tanh();

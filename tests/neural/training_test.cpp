@@ -76,7 +76,7 @@ MatrixXd dense_normal_equations(Mlp mlp, const MatrixXd& inputs) {
   return dense;
 }
 
-TEST(NormalEquations, AStepOfTheHiddenLayerIsThatOfTheDenseEquationsWithFittedOutputs) {
+TEST(NormalEquations, AStepOfTheHiddenLayerEqualsThatOfTheDenseEquations) {
   const double damping = 1e-3;
   Mlp mlp = make_mlp({4, 5, 3}, OutputKind::linear, 9);
   const Patterns patterns{MatrixXd::Random(4, 700), MatrixXd::Random(3, 700)};
@@ -116,7 +116,7 @@ TEST(BackPropagation, FitsTheSurfaceAndIsRepeatable) {
   EXPECT_TRUE(parameters_of(one) == parameters_of(two));
 }
 
-TEST(QuasiNewton, Classifies) {
+TEST(QuasiNewton, ClassifiesHeldOutPatterns) {
   const Mlp trained =
       train_quasi_newton(make_mlp({2, 10, 3}, OutputKind::softmax), classes(800, 1), classes(300, 2));
   EXPECT_GT(share_right(trained, classes(500, 3)), 0.95);

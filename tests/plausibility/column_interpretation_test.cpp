@@ -19,7 +19,7 @@ std::vector<Log> log_in_degrees() {
   return {log};
 }
 
-TEST(ColumnInterpretation, TheOneOfLeastScoreBelowTheLimitIsBest) {
+TEST(ColumnInterpretation, TheInterpretationOfLeastScoreBelowTheLimitIsBest) {
   const auto all = column_interpretations(preset_robot("RRP").chain);
   const auto distance = [](const ColumnInterpretation&,
                            const std::vector<Log>& logs) -> std::optional<double> {
@@ -32,7 +32,7 @@ TEST(ColumnInterpretation, TheOneOfLeastScoreBelowTheLimitIsBest) {
   EXPECT_EQ(best_interpretation(all, log_in_degrees(), {}, 1e-9, distance), nullptr);
 }
 
-TEST(ColumnInterpretation, OneThatHidesTheMotionOfAJointIsNotScored) {
+TEST(ColumnInterpretation, AnInterpretationThatHidesTheMotionOfAJointIsNotScored) {
   const auto all = column_interpretations(preset_robot("RRP").chain);
   const auto least_motion = [](const ColumnInterpretation&, const std::vector<Log>& logs) {
     return std::optional(logs[0].q[0][1]);

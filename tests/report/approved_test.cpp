@@ -43,15 +43,23 @@ void expect_all_approved(const std::string& name, const Diagnosis& diagnosis) {
   expect_approved(name + ".md", render_markdown(diagnosis));
 }
 
-TEST(ApprovedReport, Healthy) { expect_all_approved("healthy", healthy_diagnosis()); }
+TEST(ApprovedReport, ReportsOfAHealthyDiagnosisEqualTheApprovedOnes) {
+  expect_all_approved("healthy", healthy_diagnosis());
+}
 
-TEST(ApprovedReport, Faulty) { expect_all_approved("faulty", faulty_diagnosis()); }
+TEST(ApprovedReport, ReportsOfAFaultyDiagnosisEqualTheApprovedOnes) {
+  expect_all_approved("faulty", faulty_diagnosis());
+}
 
-TEST(ApprovedReport, Inconclusive) { expect_all_approved("inconclusive", inconclusive_diagnosis()); }
+TEST(ApprovedReport, ReportsOfAnInconclusiveDiagnosisEqualTheApprovedOnes) {
+  expect_all_approved("inconclusive", inconclusive_diagnosis());
+}
 
-TEST(ApprovedReport, HostileTexts) { expect_all_approved("hostile", hostile_diagnosis()); }
+TEST(ApprovedReport, ReportsWithHostileTextsEqualTheApprovedOnes) {
+  expect_all_approved("hostile", hostile_diagnosis());
+}
 
-TEST(ApprovedReport, FaultyInColorAndAscii) {
+TEST(ApprovedReport, TextReportsInColorAndAsciiEqualTheApprovedOnes) {
   expect_approved("faulty_color.txt", render_text(faulty_diagnosis(), {.color = true}));
   expect_approved("faulty_ascii.txt", render_text(faulty_diagnosis(), {.width = 60, .unicode = false}));
 }

@@ -19,7 +19,7 @@ std::string report(const std::string& features) {
          features + "}}]}";
 }
 
-TEST(CaseFromJson, AFindingOfItsSignalsAloneIsACaseWithoutFeatures) {
+TEST(CaseFromJson, AFindingWithoutFeaturesBecomesACaseWithoutFeatures) {
   const Case c = case_from_json(report("{}"), "run.json", 1, {"strength", "length"});
   EXPECT_EQ(c.label, (FaultLabel{FaultKind::unknown, 1_joint}));
   EXPECT_EQ(c.onset_s, 1.5);
@@ -28,7 +28,7 @@ TEST(CaseFromJson, AFindingOfItsSignalsAloneIsACaseWithoutFeatures) {
   for (const double value : c.episode.features) EXPECT_TRUE(std::isnan(value));
 }
 
-TEST(CaseFromJson, SomeFeaturesButNotThoseOfTheBaseAreRefused) {
+TEST(CaseFromJson, FeaturesThatDifferFromThoseOfTheBaseAreRefused) {
   EXPECT_EQ(case_from_json(report(R"({"strength": 2})"), "run.json", 1, {"strength"}).episode.features,
             std::vector<double>{2.0});
   try {

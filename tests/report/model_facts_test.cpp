@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-TEST(ModelFacts, AParameterOfBothListsIsThereOnce) {
+TEST(ModelFacts, AParameterOfBothListsIsListedOnce) {
   Identification identification;
   identification.physical_parameters.resize(2);
   identification.physical_parameters[0].name = "m1";

@@ -81,7 +81,7 @@ TEST(JsonReport, MissingNumbersAreNullAndValuesAreExact) {
   EXPECT_EQ(render_json(d).find("nan"), std::string::npos);
 }
 
-TEST(JsonReport, SameDiagnosisSameBytes) {
+TEST(JsonReport, TheSameDiagnosisGivesTheSameBytes) {
   EXPECT_EQ(render_json(hostile_diagnosis()), render_json(hostile_diagnosis()));
 }
 
@@ -114,7 +114,7 @@ TEST(CsvReport, EveryRecordHasTheColumnsOfTheHeader) {
   }
 }
 
-TEST(CsvReport, OneRowAFaultAndOneForAHealthyLog) {
+TEST(CsvReport, HasOneRowPerFaultAndOneForAHealthyLog) {
   EXPECT_EQ(parse_csv(render_csv(hostile_diagnosis())).size(), 3u);
   EXPECT_EQ(parse_csv(render_csv(inconclusive_diagnosis())).size(), 1u);
   const auto healthy = parse_csv(render_csv(healthy_diagnosis()));
@@ -122,7 +122,7 @@ TEST(CsvReport, OneRowAFaultAndOneForAHealthyLog) {
   EXPECT_EQ(healthy[1][1], "none");
 }
 
-TEST(CsvReport, HostileNamesComeBack) {
+TEST(CsvReport, HostileNamesAreReadBack) {
   const Diagnosis d = hostile_diagnosis();
   const std::string path = parse_csv(render_csv(d))[1][0];
   EXPECT_EQ(path.substr(0, 6), d.log.path.substr(0, 6));
@@ -187,7 +187,7 @@ std::size_t largest_page(int joints) {
   return render_html(d, details).size();
 }
 
-TEST(HtmlReport, StaysSmallHoweverLongTheLog) {
+TEST(HtmlReport, StaysSmallForALongLog) {
   EXPECT_LT(largest_page(4), 3'000'000u);
   EXPECT_LT(largest_page(8), 5'000'000u);
 }
@@ -223,20 +223,20 @@ TEST(TextReport, HoldsNoControlCharacterButLineBreaks) {
   for (const char c : text) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20);
 }
 
-TEST(TextReport, AsciiMeansAscii) {
+TEST(TextReport, AsciiOutputHoldsOnlyAscii) {
   const std::string text = render_text(faulty_diagnosis(), {.unicode = false});
   EXPECT_TRUE(
       std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; }));
 }
 
-TEST(TextReport, ColorAddsNothingButColor) {
+TEST(TextReport, ColorAddsOnlyColorCodes) {
   const std::string colored = render_text(faulty_diagnosis(), {.color = true});
   const std::string plain = std::regex_replace(colored, std::regex("\x1b\\[[0-9;]*m"), "");
   EXPECT_EQ(plain, render_text(faulty_diagnosis()));
   EXPECT_NE(colored, plain);
 }
 
-TEST(Timeline, MarksStandWhereTheTimesAre) {
+TEST(Timeline, MarksAreAtTheirTimes) {
   Diagnosis d = faulty_diagnosis();
   d.log.start_s = 0.0;
   d.log.end_s = 100.0;

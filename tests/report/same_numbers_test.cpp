@@ -41,7 +41,7 @@ std::map<std::string, std::string> for_people(const Diagnosis& d) {
           {"Markdown", render_markdown(d)}};
 }
 
-TEST(SameNumbers, InEveryReportForPeople) {
+TEST(SameNumbers, AreInEveryReportForPeople) {
   const Diagnosis d = odd_numbers();
   for (const auto& [format, report] : for_people(d)) {
     for (const char* number :
@@ -54,7 +54,7 @@ TEST(SameNumbers, InEveryReportForPeople) {
   }
 }
 
-TEST(SameNumbers, InEveryReportForPrograms) {
+TEST(SameNumbers, AreInEveryReportForPrograms) {
   const Diagnosis d = odd_numbers();
   const nlohmann::json fault = nlohmann::json::parse(render_json(d)).at("faults").at(0);
   const std::string csv = render_csv(d), junit = render_junit(d);
@@ -83,7 +83,7 @@ TEST(SameNumbers, AChangeOfTheDiagnosisReachesEveryReport) {
     EXPECT_EQ(render(other).find("3.141"), std::string::npos);
 }
 
-TEST(MarkdownReport, TextFromOutsideStaysText) {
+TEST(MarkdownReport, MarkupInForeignTextIsEscaped) {
   Diagnosis d = faulty_diagnosis();
   d.log.path = "<b>|x|</b> @you #12 **a** [b](http://c.d) www.e.f `g` ~~h~~ \n# i";
   const std::string text = render_markdown(d);

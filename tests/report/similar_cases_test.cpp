@@ -21,7 +21,7 @@ std::map<std::string, std::string> for_people(const Diagnosis& d) {
       {"text", render_text(d, {.width = 400})}, {"markdown", render_markdown(d)}, {"html", render_html(d)}};
 }
 
-TEST(SimilarCases, EveryReportForPeopleTellsWhereTheyComeFromAndWhy) {
+TEST(SimilarCases, EveryReportForPeopleStatesTheirOriginAndWhyTheyAreSimilar) {
   for (const auto& [format, report] : for_people(faulty_diagnosis())) {
     EXPECT_TRUE(has(report, "confirmed in the field by A. Weber on 2026-03-02, robot bench 7")) << format;
     EXPECT_TRUE(has(report, "simulated with the robot")) << format;
@@ -32,7 +32,7 @@ TEST(SimilarCases, EveryReportForPeopleTellsWhereTheyComeFromAndWhy) {
   EXPECT_TRUE(has(render_html(faulty_diagnosis()), "<summary>Why case 31 is similar"));
 }
 
-TEST(SimilarCases, ThatAllAreSimulatedIsTheirHeadline) {
+TEST(SimilarCases, TheHeadlineStatesThatAllAreSimulated) {
   Diagnosis d = faulty_diagnosis();
   d.faults[0].precedents.erase(d.faults[0].precedents.begin());
   for (const auto& [format, report] : for_people(d))
@@ -42,7 +42,7 @@ TEST(SimilarCases, ThatAllAreSimulatedIsTheirHeadline) {
     EXPECT_TRUE(has(report, "Similar cases (none confirmed in the field)")) << format;
 }
 
-TEST(SimilarCases, SimulatedVotesAreCalledSimulated) {
+TEST(SimilarCases, VotesOfSimulatedCasesAreMarkedAsSimulated) {
   FaultFinding fault = locked_joint();
   fault.decided_by = DecidedBy::cases;
   EXPECT_STREQ(decided_words(fault), "the networks disagree; similar cases decided");
@@ -50,7 +50,7 @@ TEST(SimilarCases, SimulatedVotesAreCalledSimulated) {
   EXPECT_STREQ(decided_words(fault), "the networks disagree; similar simulated cases decided");
 }
 
-TEST(SimilarCases, ProgramsGetOriginAndNumbers) {
+TEST(SimilarCases, ReportsForProgramsHoldTheirOriginAndNumbers) {
   const Diagnosis d = faulty_diagnosis();
   const nlohmann::json shown = nlohmann::json::parse(render_json(d)).at("faults")[0].at("precedents");
   ASSERT_EQ(shown.size(), 2u);
@@ -65,7 +65,7 @@ TEST(SimilarCases, ProgramsGetOriginAndNumbers) {
   EXPECT_TRUE(has(render_csv(d), "31 field 0.71;12 simulated 0.83"));
 }
 
-TEST(SimilarCases, NothingThatStandsOutIsSaid) {
+TEST(SimilarCases, ALackOfUnusualFeaturesIsStated) {
   Precedent p = example_precedents()[1];
   EXPECT_TRUE(has(likeness_words(p, 2), "unlike: nothing beyond the usual difference of cases of one fault"));
   p.alike.clear();

@@ -18,7 +18,7 @@ Diagnosis lost_torque() {
   return d;
 }
 
-TEST(VerdictSentence, TellsTheSizeOfTheFault) {
+TEST(VerdictSentence, StatesTheSizeOfTheFault) {
   const std::string sentence =
       "1 fault: joint 1 lost a part of its torque, from 4.210 s, about 50 % of the torque is lost.";
   EXPECT_EQ(verdict_sentence(lost_torque()), sentence);
@@ -45,12 +45,12 @@ TEST(VerdictSentence, CountsTheFaultsThatItDoesNotName) {
   EXPECT_TRUE(verdict_sentence(d).ends_with("; and 2 more."));
 }
 
-TEST(VerdictSentence, SaysNothingOfASizeThatWasNotEstimated) {
+TEST(VerdictSentence, OmitsASizeThatWasNotEstimated) {
   EXPECT_EQ(verdict_sentence(faulty_diagnosis()), "1 fault: joint 2 is locked, from 4.210 s.");
   EXPECT_EQ(render_html(faulty_diagnosis()).find("Size: "), std::string::npos);
 }
 
-TEST(VerdictSentence, HeadOfAFindingTellsItsSize) {
+TEST(VerdictSentence, TheHeadOfAFindingStatesItsSize) {
   EXPECT_NE(render_html(lost_torque()).find("<p class=\"size\">Size: about 50 % of the torque is lost.</p>"),
             std::string::npos);
 }

@@ -33,7 +33,7 @@ TEST(LearnResidual, ThePapersNetworkPredictsTheBenchRobot) {  // a study: 3.9e-5
   EXPECT_GT(learned.persistence_mse, 1e-3);
 }
 
-TEST(LearnResidual, PhysicsIsExactAndHybridRepairsAWrongRobot) {
+TEST(LearnResidual, PhysicsIsExactAndAHybridCorrectsAWrongRobot) {
   const Log log = bench_log(bench_robot(), {.duration_s = 130.0});
   EXPECT_LT(learn_on(log, bench_robot(), {.kind = ResidualKind::physics}).normalised_mse, 1e-18);
   Robot wrong = bench_robot();
@@ -44,7 +44,7 @@ TEST(LearnResidual, PhysicsIsExactAndHybridRepairsAWrongRobot) {
   EXPECT_LT(hybrid.normalised_mse, 0.05 * physics);
 }
 
-TEST(LearnResidual, PatternsOfTheTwinCarryOverToOtherMoves) {
+TEST(LearnResidual, PatternsOfTheTwinReduceResidualsOfOtherMoves) {
   const BenchMotion few_moves{.duration_s = 30.0, .log_period_s = 0.01},
       others{.duration_s = 60.0, .log_period_s = 0.01, .seed = 8};
   const auto rms_on_others = [&](double twin_share) {
@@ -58,7 +58,7 @@ TEST(LearnResidual, PatternsOfTheTwinCarryOverToOtherMoves) {
   EXPECT_LT(rms_on_others(1.0), 0.75 * rms_on_others(0.0));
 }
 
-TEST(LearnResidual, BackPropagationLearnsToo) {
+TEST(LearnResidual, BackPropagationReducesTheError) {
   const Log log = bench_log(bench_robot(), {.duration_s = 130.0});
   const LearnedResidual learned = learn_on(log, bench_robot(),
                                            {.trainer = ResidualTrainer::back_propagation,
@@ -88,7 +88,7 @@ TEST(LearnResidual, SegmentSizeAndRepetitionChangeNoBit) {
   EXPECT_TRUE(one.healthy.velocity_rms == two.healthy.velocity_rms);
 }
 
-TEST(LearnResidual, AJointThatGoesRoundIsSeenModuloATurn) {
+TEST(LearnResidual, AJointThatTurnsWithoutEndIsPredictedModuloATurn) {
   Log log = bench_log(bench_robot(), {.duration_s = 130.0});
   for (int i = 0; i < log.rows(); ++i) log.q[0][i] = std::remainder(log.q[0][i] + 0.05 * i, 2 * M_PI);
   const LearnedResidual learned =

@@ -123,7 +123,7 @@ Log log_with_free_joint(int joint) {
                                    .seed = 5});
 }
 
-TEST(Residuals, AFreeJointShowsMinusItsTorqueOnItsOwnAxis) {
+TEST(Residuals, ResidualsOfAFreeJointShowItsMissingTorqueAtThatJoint) {
   const ResidualGenerator physics =
       learn_on(bench_log(bench_robot(), {.duration_s = 20.0, .log_period_s = 0.001, .noise = 1e-4}),
                {.kind = ResidualKind::physics})
@@ -139,7 +139,7 @@ TEST(Residuals, AFreeJointShowsMinusItsTorqueOnItsOwnAxis) {
   }
 }
 
-TEST(Residuals, TheNetworkSeesAFreeJointAtOnce) {
+TEST(Residuals, ResidualsOfTheNetworkGrowAtOnceForAFreeJoint) {
   for (int joint : {1, 2, 3}) {
     const Residuals r = all_residuals(fast_generator(), log_with_free_joint(joint), 4096);
     const auto rms = [&](double from_s, double to_s) {
@@ -172,14 +172,14 @@ TEST(Residuals, AnotherRobotsLogIsRefused) {
   EXPECT_THROW(compute_residuals(quick_generator(), log, state), Error);
 }
 
-TEST(Residuals, WithoutTorqueThereAreNone) {
+TEST(Residuals, ALogWithoutTorqueHasNoResiduals) {
   Log log = bench_log(bench_robot(), {.duration_s = 2.0});
   log.tau.clear();
   ResidualState state;
   EXPECT_EQ(compute_residuals(quick_generator(), log, state).count(), 0);
 }
 
-TEST(Residuals, ALogWithoutVelocitiesHasThemFromItsPositions) {
+TEST(Residuals, ALogWithoutVelocitiesHasResidualsFromItsPositions) {
   Log log = bench_log(bench_robot(), {.duration_s = 2.0});
   log.dq.clear();
   ResidualState state;

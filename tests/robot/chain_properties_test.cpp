@@ -104,7 +104,7 @@ TEST(ChainProperties, MdotMinusTwoCIsSkewAndCdqIsTheBias) {
   }
 }
 
-TEST(ChainProperties, ForwardUndoesInverse) {
+TEST(ChainProperties, ForwardDynamicsUndoInverseDynamics) {
   Random random(26);
   for (Chain chain : assorted_chains()) {
     for (auto& f : chain.friction) f = {0.4, 0.7, 0.1, 0.05};
@@ -115,7 +115,7 @@ TEST(ChainProperties, ForwardUndoesInverse) {
   }
 }
 
-TEST(ChainProperties, InverseEqualsEulerLagrangeOfTheEnergies) {
+TEST(ChainProperties, InverseDynamicsEqualEulerLagrangeOfTheEnergies) {
   Random random(27);
   for (const Chain& chain : assorted_chains()) {
     const int n = chain.joints();

@@ -34,7 +34,7 @@ TEST(ExtraTorque, InverseAndForwardDynamicsUndoEachOther) {
   }
 }
 
-TEST(ExtraTorque, EachPartBrakesAsItsEquationSays) {
+TEST(ExtraTorque, EachPartFollowsItsEquation) {
   Chain chain = robot_from_toml(kExtraTorqueRobot, "robot").chain;
   const Vector q = Vector::Constant(3, 0.1);
   Vector dq(3), torque = Vector::Zero(3);
@@ -50,7 +50,7 @@ TEST(ExtraTorque, EachPartBrakesAsItsEquationSays) {
   EXPECT_NEAR(carried_torque(chain.friction[2], 1.0, -8.0 * 0.8), -8.0, 1e-12);
 }
 
-TEST(ExtraTorque, TheRobotFileSaysItAndRoundTrips) {
+TEST(ExtraTorque, TheRobotFileHoldsItAndIsReadBack) {
   const Robot robot = robot_from_toml(kExtraTorqueRobot, "robot");
   const std::string text = robot_file_text(robot);
   EXPECT_EQ(robot_file_text(robot_from_toml(text, "again")), text);
@@ -63,7 +63,7 @@ TEST(ExtraTorque, TheRobotFileSaysItAndRoundTrips) {
   EXPECT_NE(again.find("[[identified.ripple]]"), std::string::npos);
 }
 
-TEST(ExtraTorque, WhatCannotBeIsSaid) {
+TEST(ExtraTorque, ImpossibleValuesAreRefusedWithTheReason) {
   const auto message = [](const char* text) {
     try {
       robot_from_toml(text, "robot");

@@ -99,7 +99,7 @@ TEST(FastDynamics, EqualsTheGeneralPathForAxesThatCross) {
   }
 }
 
-TEST(FastDynamics, LockedJointStaysAndTheRestObeysTheirOwnEquations) {
+TEST(FastDynamics, ALockedJointStaysAndTheOtherJointsObeyTheirEquations) {
   Random random(14);
   const Chain chain = scrambled(preset_robot("RRP").chain, random);
   const FastDynamics fast(chain);

@@ -20,7 +20,7 @@ Log read_with(const std::string& robot_text, const std::string& path) {
 
 using Values = std::vector<double>;
 
-TEST(LogPreset, UniversalRobotsRtde) {
+TEST(LogPreset, UniversalRobotsRtdeMapsPositionsVelocitiesAndTorques) {
   const TemporaryFolder folder;
   const std::string log =
       folder.write("run.csv",
@@ -57,7 +57,7 @@ TEST(LogPreset, MecademicHasDegreesAndSharesOfTheRatedTorque) {
   EXPECT_DOUBLE_EQ(read.tau[0][0], 0.5);
 }
 
-TEST(LogPreset, WhatTheRobotFileSaysComesFirst) {
+TEST(LogPreset, TheRobotFileOverridesThePreset) {
   const Robot robot = robot_from_toml(
       "axes = \"RR\"\n[log]\npreset = \"ur-rtde\"\ntorque = \"measured\"\n[log.columns]\nq2 = \"mine\"\n",
       "robot.toml");
@@ -67,7 +67,7 @@ TEST(LogPreset, WhatTheRobotFileSaysComesFirst) {
   EXPECT_EQ(robot_from_toml(robot_file_text(robot), "again").log.columns.at("tau2").name, "actual_current_1");
 }
 
-TEST(LogPreset, AFileOfOnesOwnIsTaken) {
+TEST(LogPreset, AFileOfTheUserCanBeAPreset) {
   const TemporaryFolder folder;
   const std::string preset = folder.write(
       "cell.toml", "[log.columns]\nt = \"clock\"\nq = {name = \"axis # pos\", unit = \"deg\"}\n");
@@ -76,7 +76,7 @@ TEST(LogPreset, AFileOfOnesOwnIsTaken) {
   EXPECT_EQ(robot.log.columns.at("q2").unit, "deg");
 }
 
-TEST(LogPreset, AnUnknownOneIsRefusedWithThoseThereAre) {
+TEST(LogPreset, AnUnknownPresetIsRefusedWithTheKnownOnes) {
   try {
     robot_from_toml("axes = \"RR\"\n[log]\npreset = \"kuka\"\n", "robot.toml");
     FAIL();

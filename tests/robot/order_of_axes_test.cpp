@@ -15,7 +15,7 @@ namespace {
 
 using Vector = JointVector;
 
-TEST(OrderOfAxes, EightJointsOfParallelAxesReachAsAPlanarArmDoes) {
+TEST(OrderOfAxes, EightParallelAxesReachLikeAPlanarArm) {
   const Robot robot = preset_robot("RRRRRRRR");
   Random random(40);
   const Vector q = draw(random, 8, 3.0);
@@ -37,7 +37,7 @@ TEST(OrderOfAxes, SlidingAxesLiftAlongZAndCarryTheNextJointOnTheirLine) {
   EXPECT_NEAR((tip_position(robot.chain, q) - expected).norm(), 0.0, 1e-14);
 }
 
-TEST(OrderOfAxes, ALastTurnBehindASlideIsAWristOnlyBehindAnArm) {
+TEST(OrderOfAxes, ALastRotationAfterASlideIsAWristOnlyAfterAnArm) {
   EXPECT_EQ(preset_robot("RRPR").shapes.back(), LinkShape::general);
   EXPECT_EQ(preset_robot("PRRPR").shapes.back(), LinkShape::general);
   EXPECT_EQ(preset_robot("PR").shapes.back(), LinkShape::rod);
@@ -61,19 +61,19 @@ TEST(OrderOfAxes, EveryOrderRoundTripsThroughItsFile) {
   }
 }
 
-TEST(OrderOfAxes, AnythingElseIsRefused) {
+TEST(OrderOfAxes, AnInvalidOrderIsRefused) {
   for (const char* axes : {"", "RRRRRRRRR", "rrp", "RR P", "RRQ"})
     EXPECT_THROW(preset_robot(axes), Error) << axes;
 }
 
-TEST(OrderOfAxes, StandsForARobotFileWhereThereIsNone) {
+TEST(OrderOfAxes, ReplacesAMissingRobotFile) {
   const TemporaryFolder folder;
   EXPECT_EQ(load_robot_file("RRRR", folder.path().string()).axes, "RRRR");
   folder.write("RRRR", "axes = \"RP\"\n");
   EXPECT_EQ(load_robot_file("RRRR", folder.path().string()).axes, "RP");
 }
 
-TEST(OrderOfAxes, AMissingNameSaysWhatIsExpected) {
+TEST(OrderOfAxes, AMissingRobotFileIsRefusedWithAnExampleOfAxes) {
   const TemporaryFolder folder;
   try {
     load_robot_file("RRX", folder.path().string());

@@ -24,7 +24,7 @@ TEST(Payload, AddsTheForceThatItsWeightAndAccelerationTakeAtItsPlace) {
   EXPECT_NEAR(more[1], 0.0, 1e-12) << "the second joint does not move the first link";
 }
 
-TEST(Payload, OfTheLastLinkSitsAtTheTip) {
+TEST(Payload, OfTheLastLinkIsAtTheTip) {
   Random random(5);
   for (const Chain& chain : assorted_chains()) {
     const int n = chain.joints();
@@ -42,18 +42,18 @@ TEST(Payload, OfTheLastLinkSitsAtTheTip) {
   }
 }
 
-TEST(PayloadLinks, AreAllThatAScaraShows) {
+TEST(PayloadLinks, AreAllLinksOfAScara) {
   EXPECT_EQ(payload_links(preset_robot("RRP").chain), (Links{1_joint, 2_joint, 3_joint}));
 }
 
-TEST(PayloadLinks, OfTwoEndsThatAreOnePointTheLaterOneCounts) {
+TEST(PayloadLinks, IncludeOnlyTheLaterOfTwoLinksThatEndAtOnePoint) {
   Chain chain = preset_robot("RRR").chain;
   chain.geometry[2].axis = Eigen::Vector3d::UnitX();
   chain.length[2] = 0.0;  // the tip stays where joint 3 is
   EXPECT_EQ(payload_links(chain), (Links{1_joint, 3_joint}));
 }
 
-TEST(PayloadLinks, ALinkThatEndsOnItsAxisShowsNone) {
+TEST(PayloadLinks, ExcludeALinkThatEndsOnItsAxis) {
   Chain chain = preset_robot("RRP").chain;
   chain.length[0] = 0.0;
   chain.geometry[1].axis = Eigen::Vector3d::UnitY();

@@ -42,7 +42,7 @@ TEST(RobotFileErrors, UnknownKeySuggestsTheNearest) {
                {"line 3, key log.torqe", "did you mean \"torque\""});
 }
 
-TEST(RobotFileErrors, WrongTypesSayWhatWasExpected) {
+TEST(RobotFileErrors, WrongTypesNameTheExpectedType) {
   expect_error("axes = 3", {"line 1, key axes", "expected a text in quotes, found 3"});
   expect_error("axes = \"RRP\"\ngravity = [0, 0]", {"key gravity", "3 numbers", "found 2"});
   expect_error("axes = \"RRP\"\ngravity = 9.81", {"key gravity", "found 9.81"});
@@ -50,7 +50,7 @@ TEST(RobotFileErrors, WrongTypesSayWhatWasExpected) {
   expect_error("axes = \"RRP\"\n[known]\nl1 = nan", {"known.l1", "finite number"});
 }
 
-TEST(RobotFileErrors, WrongValuesSayWhatWasExpected) {
+TEST(RobotFileErrors, WrongValuesNameTheExpectedValue) {
   expect_error("axes = \"RRP\"\n[known]\nm9 = 1", {"known.m9", "joint from 1 to 3"});
   expect_error("axes = \"RRP\"\n[known]\nm1 = -1", {"known.m1", "not negative"});
   expect_error("axes = \"RRP\"\n[log]\ntorque = \"comanded\"", {"log.torque", "did you mean \"commanded\""});
@@ -60,7 +60,7 @@ TEST(RobotFileErrors, WrongValuesSayWhatWasExpected) {
   expect_error("axes = \"RRP\"\nwidth = 0", {"key width", "positive"});
 }
 
-TEST(RobotFileErrors, NonsenseAboutWhatIsNormalIsNamed) {
+TEST(RobotFileErrors, InvalidNormalRangesAreNamed) {
   const std::string normal = "axes = \"RRP\"\n[normal]\n";
   expect_error(normal + "friction = 1.5", {"line 3, key normal.friction", "less than 1", "found 1.5"});
   expect_error(normal + "torque_constant = -0.1",

@@ -75,7 +75,7 @@ TEST(TorqueBetweenSamples, IsAsStatedOrElseNearestToTheIdentifiedTiming) {
   EXPECT_EQ(torque_between_samples(robot), TorqueTiming::held);
 }
 
-TEST(RobotFile, WhatIsNormalHasDefaultsAndIsKept) {
+TEST(RobotFile, NormalRangesHaveDefaultsAndAreKept) {
   EXPECT_EQ(robot_from_toml("axes = \"RRP\"", "r.toml").normal, NormalRange{});
   const Robot robot = robot_from_toml(
       "axes = \"RRP\"\n[normal]\nfriction = 0.5\ntorque_offset = 0\nnoise = [0.8, 3]\n"
@@ -155,7 +155,7 @@ TEST(RobotFile, EveryPresetRoundTrips) {
   }
 }
 
-TEST(RobotFile, ChainAxisByAxis) {
+TEST(RobotFile, ReadsAChainJointByJoint) {
   const Robot robot = robot_from_toml(R"(
 [[joint]]
 kind = "revolute"

@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-TEST(Drives, GiveWhatIsCommandedUnlessToldOtherwise) {
+TEST(Drives, GiveTheCommandByDefault) {
   Drives drives(2, {}, Random(1));
   JointVector torque(2);
   torque << 3.0, -4.0;
@@ -51,13 +51,13 @@ TEST(Drives, RoughnessHasItsLevelAndItsMemory) {
   EXPECT_NEAR(product / square, std::exp(-0.001 / 0.03), 0.002);
 }
 
-TEST(Drives, LongStepsGetTheMeanOfWhatComesAndGoes) {
+TEST(Drives, LongStepsGetTheMeanOfTheRoughness) {
   const double x = 0.073 / 0.03;  // the mean of the process over x memories
   const double share = 2.0 / x * (1.0 - (1.0 - std::exp(-x)) / x);
   EXPECT_NEAR(moments(0.073, 0.03).first, 4.0 * share, 0.25 * 4.0 * share);
 }
 
-TEST(Drives, TheLogHoldsTheCommandAndNotWhatArrives) {
+TEST(Drives, TheLogHoldsTheCommandAndNotTheActualTorque) {
   SimulationSpec spec = short_run(1.0);
   const Log plain = simulate(industrial(), spec, 3).log;
   spec.drives.offset = {5.0, 0.0, 0.0};
@@ -66,7 +66,7 @@ TEST(Drives, TheLogHoldsTheCommandAndNotWhatArrives) {
   EXPECT_NE(plain.q[0][200], offset.q[0][200]);
 }
 
-TEST(Drives, AGainThatTurnsTheTorqueAroundIsRefused) {
+TEST(Drives, AGainThatReversesTheTorqueIsRefused) {
   SimulationSpec spec = short_run(1.0);
   spec.drives.gain = {-1.5, 0.0, 0.0};
   EXPECT_THROW(simulate(industrial(), spec), Error);

@@ -37,14 +37,14 @@ MachineSpec sticking() {
   return machine;
 }
 
-TEST(StickSlip, AJointBreaksAwayWithMoreThanItSlidesWith) {
+TEST(StickSlip, AJointNeedsMoreTorqueToBreakAwayThanToSlide) {
   EXPECT_LT(std::abs(speed_after(1.0, dry_joint(), sticking(), 0.0, 2.8)), 5.0 * kWidth) << "sticks";
   EXPECT_GT(speed_after(1.0, dry_joint(), sticking(), 0.0, 3.1), 1.0) << "beyond 1.5 times Coulomb";
   EXPECT_GT(speed_after(1.0, dry_joint(), {}, 0.0, 2.8), 1.0) << "without it, beyond Coulomb";
   EXPECT_NEAR(speed_after(1.0, dry_joint(), sticking(), 1.0, 2.8), 1.0 + 0.8 / kRodInertia, 1e-3) << "slides";
 }
 
-TEST(StickSlip, IsTheCurveThatTheSpecSays) {
+TEST(StickSlip, FollowsTheCurveOfTheSpec) {
   const Robot robot = dry_joint();
   const ExtraFriction extra(robot.chain, {.share = {0.5}, .speed = {0.1}}, {});
   ASSERT_TRUE(extra.any());
@@ -53,7 +53,7 @@ TEST(StickSlip, IsTheCurveThatTheSpecSays) {
                 0.5 * kCoulomb * std::exp(-v * v / 0.01) * std::tanh(v / kWidth), 1e-12);
 }
 
-TEST(StickSlip, TheStepIsShortEnoughForIt) {
+TEST(StickSlip, TheStepIsShortEnoughForStickSlip) {
   SimulationSpec spec = short_run(2.0);
   spec.machine.stick_slip = {.share = {0.6, 0.6, 0.6}, .speed = {0.05, 0.05, 0.02}};
   const Log usual = simulate(industrial(), spec).log;
@@ -87,7 +87,7 @@ TEST(WarmUp, AColdJointSlowsDownFaster) {
   EXPECT_NEAR(lost, kCoulomb * (1.0 + 0.6 * warmth) / kRodInertia, 1e-6);
 }
 
-TEST(WarmUp, WhatAFaultAddsIsNeverCold) {
+TEST(WarmUp, FrictionThatAFaultAddsDoesNotWarmUp) {
   const Robot robot = dry_joint();
   const ExtraFriction extra(robot.chain, {}, {.share = {0.6}, .time_s = {4.0}});
   Friction now = robot.chain.friction[0];
@@ -95,7 +95,7 @@ TEST(WarmUp, WhatAFaultAddsIsNeverCold) {
   EXPECT_NEAR(extra.torque(0, 1.0, now), 0.6 * kCoulomb, 1e-12);
 }
 
-TEST(ExtraFriction, AColdJointAndOneThatRubsBreakAwayLater) {
+TEST(ExtraFriction, AColdOrFaultyJointNeedsMoreTorqueToBreakAway) {
   const Robot robot = dry_joint();
   ExtraFriction extra(robot.chain, {.share = {0.5}, .speed = {0.1}}, {.share = {0.6}, .time_s = {4.0}});
   extra.set_time(4.0);
@@ -106,7 +106,7 @@ TEST(ExtraFriction, AColdJointAndOneThatRubsBreakAwayLater) {
   EXPECT_NEAR(extra.torque(0, v, now), expected * std::tanh(v / kWidth), 1e-12);
 }
 
-TEST(ExtraFriction, IsNeverSteeperThanItsWorst) {
+TEST(ExtraFriction, IsNeverSteeperThanItsStatedBound) {
   const Robot robot = dry_joint(kViscous);
   const ExtraFriction extra(robot.chain, {.share = {0.5}, .speed = {0.02}},
                             {.share = {0.6}, .time_s = {4.0}});
@@ -123,7 +123,7 @@ TEST(ExtraFriction, IsNeverSteeperThanItsWorst) {
   }
 }
 
-TEST(ExtraFriction, BehindASpringBrakesTheMotor) {
+TEST(ExtraFriction, BrakesTheMotorIfTheGearHasASpring) {
   MachineSpec machine = cold();
   machine.gears = {.stiffness = {1000.0}, .play = {0.5}, .motor_inertia = {0.2}};
   Plant plant(dry_joint(), {}, {}, kTick_s, machine);
@@ -144,7 +144,7 @@ void expect_refused(const Check& check, const char* key) {
   }
 }
 
-TEST(ExtraFriction, IsRefusedWhenItCannotBe) {
+TEST(ExtraFriction, ImpossibleValuesAreRefused) {
   const auto stick = [](StickSlipSpec spec) { return [spec] { check_stick_slip(1, spec); }; };
   const auto warm = [](WarmUpSpec spec) { return [spec] { check_warm_up(1, spec); }; };
   expect_refused(stick({.share = {-0.1}, .speed = {1.0}}), "stick_slip.share");

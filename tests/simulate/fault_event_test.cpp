@@ -19,7 +19,7 @@ bool changes_readings(const MachineFault& f) {
   return f.reading_offset != 0.0 || f.reading_drift_per_s != 0.0 || f.reading_sticks;
 }
 
-TEST(MachineFault, DoesToTheMachineWhatTheCatalogueSays) {
+TEST(MachineFault, ActsOnTheMachineAsTheCatalogueDescribes) {
   for (int k = 0; k < static_cast<int>(FaultKind::unknown); ++k) {
     const FaultDescription& kind = describe(static_cast<FaultKind>(k));
     const MachineFault fault =
@@ -29,7 +29,7 @@ TEST(MachineFault, DoesToTheMachineWhatTheCatalogueSays) {
   }
 }
 
-TEST(CheckFault, APayloadNeedsALinkThatKeepsMass) {
+TEST(CheckFault, APayloadMustLeaveItsLinkAPositiveMass) {
   const Robot robot = known_rrp();
   const double mass = robot.chain.links[1].mass;
   const auto payload = [](Joint link, double kg) {
@@ -41,7 +41,7 @@ TEST(CheckFault, APayloadNeedsALinkThatKeepsMass) {
   EXPECT_THROW(check_fault(robot, payload(4_joint, 0.5)), Error);
 }
 
-TEST(SizeUnit, IsThatOfTheJoint) {
+TEST(SizeUnit, FollowsFromTheTypeOfTheJoint) {
   const Robot robot = known_rrp();
   auto unit = [&](FaultKind kind, Joint joint) { return size_unit(robot, {.kind = kind, .joint = joint}); };
   EXPECT_EQ(unit(FaultKind::torque_loss, 1_joint), "1");

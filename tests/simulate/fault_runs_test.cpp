@@ -31,7 +31,7 @@ TEST(SimulateFaults, TorqueLossTakesItsShare) {
   }
 }
 
-TEST(SimulateFaults, LockedJointStopsAtOnceAndMomentumPasses) {
+TEST(SimulateFaults, ALockedJointStopsAtOnceAndPassesOnItsMomentum) {
   const Robot robot = industrial();
   SimulationSpec spec = short_run();
   spec.motion.points = {{-1.0, -1.0, -0.2}, {1.0, 1.0, 0.0}};

@@ -34,7 +34,7 @@ double farthest(const JointSignals& a, const JointSignals& b) {
   return most;
 }
 
-TEST(GearedRuns, StiffGearsAreRigidOnes) {
+TEST(GearedRuns, VeryStiffGearsMoveLikeRigidGears) {
   const Log rigid = simulate(with_rotors(), short_run(2.0)).log;
   const Log stiff = simulate(industrial(), sprung(1e7)).log;
   const Log softer = simulate(industrial(), sprung(1e5)).log;
@@ -44,14 +44,14 @@ TEST(GearedRuns, StiffGearsAreRigidOnes) {
   EXPECT_GT(farthest(rigid.q, softer.q), 5.0 * farthest(rigid.q, stiff.q));
 }
 
-TEST(GearedRuns, FrictionThatGrowsWithTheLoadHasTheSameLimit) {
+TEST(GearedRuns, LoadFrictionOfVeryStiffGearsActsLikeThatOfRigidGears) {
   Robot robot = industrial(), rigid_robot = with_rotors();
   for (int j = 0; j < 3; ++j) robot.chain.friction[j].load = rigid_robot.chain.friction[j].load = 0.1;
   const Log rigid = simulate(rigid_robot, short_run(2.0)).log;
   EXPECT_LT(farthest(rigid.q, simulate(robot, sprung(1e7)).log.q), 1e-5);
 }
 
-TEST(GearedRuns, MotorsOfRigidGearsAreRotors) {
+TEST(GearedRuns, MotorsOfRigidGearsActLikeRotors) {
   SimulationSpec spec = short_run(1.0);
   spec.machine.gears.motor_inertia = kMotors;
   EXPECT_EQ(simulate(industrial(), spec).log.q, simulate(with_rotors(), short_run(1.0)).log.q);

@@ -55,7 +55,7 @@ TEST(Gears, StepsAreShortEnoughForTheSpringAlone) {
   }
 }
 
-TEST(Gears, DampingTakesTheSwingAwayAtItsRate) {
+TEST(Gears, DampingReducesTheSwingAtItsRate) {
   const double damping = 0.4, sum = 1.0 / kMotor + 1.0 / kRodInertia;
   Plant plant(one_joint(), {}, {}, kTick_s, with_gears(0.0, damping));
   const double tau = 5.0, decay = 0.5 * damping * sum, w = std::sqrt(kSpring * sum - decay * decay);
@@ -80,7 +80,7 @@ TEST(Gears, TheLinkStandsUntilTheMotorHasCrossedThePlay) {
   EXPECT_GT(plant.dq[0], 0.0);
 }
 
-TEST(Gears, BetweenItsFlanksASwingLosesNoEnergy) {
+TEST(Gears, ASwingThroughThePlayLosesNoEnergy) {
   const double play = 0.01;
   Plant plant(one_joint(), {}, {}, kTick_s, with_gears(play));
   run(plant, 0, 100, 3.0);
@@ -162,7 +162,7 @@ TEST(Gears, ALockStopsTheMotorAndTheLinkSwingsOn) {
   }
 }
 
-TEST(Gears, APushMovesTheLinkAndAMissingTorqueTheMotor) {
+TEST(Gears, APushActsOnTheLinkAndALostTorqueOnTheMotor) {
   const double play = 0.01;
   const SimulatedFault push{FaultKind::collision, 1_joint, 0.0, 1.0, 3.0};
   Plant pushed(one_joint(), {}, {push}, kTick_s, with_gears(play));
@@ -221,7 +221,7 @@ void expect_refused(const Robot& robot, const GearSpec& spec, const char* key) {
   }
 }
 
-TEST(Gears, AreRefusedWhenTheyCannotBe) {
+TEST(Gears, ImpossibleValuesAreRefused) {
   const Robot robot = one_joint();
   expect_refused(robot, {.stiffness = {-1.0}}, "stiffness");
   expect_refused(robot, {.stiffness = {1.0, 1.0}}, "stiffness");

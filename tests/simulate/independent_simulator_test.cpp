@@ -13,7 +13,7 @@ namespace {
 
 /// A healthy, noise-free log of another simulator with the paper's robot and held torque: carrying each
 /// logged state over one sample under the logged torque must land on the next. The log has seven digits.
-TEST(IndependentSimulator, OurPlantRepeatsItsHeldHealthyLog) {
+TEST(IndependentSimulator, PlantReproducesItsHealthyLogWithHeldTorque) {
   const std::filesystem::path data = shared_data();
   if (data.empty()) return;
   const std::string path = (data / "independent-simulation" / "t_060.csv").string();

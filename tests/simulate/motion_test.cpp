@@ -105,7 +105,7 @@ TEST(Motion, ReplayPassesThroughItsSamples) {
   EXPECT_EQ(at.dq[0], 0.0);
 }
 
-TEST(Motion, RefusesWhatDoesNotFit) {
+TEST(Motion, RefusesInvalidSpecs) {
   MotionSpec spec;
   spec.low = {1.0};
   EXPECT_THROW(Motion(preset_robot("RRP"), spec, 1.0, 1), Error);

@@ -38,7 +38,7 @@ void expect_ascending(const std::vector<double>& time) {
   for (std::size_t k = 1; k < time.size(); ++k) ASSERT_GT(time[k], time[k - 1]) << k;
 }
 
-TEST(Recording, IsTheTruthUnlessToldOtherwise) {
+TEST(Recording, IsExactByDefault) {
   const Log log = recorded_as({}), exact = exact_log();
   EXPECT_EQ(log.time, exact.time);
   EXPECT_EQ(log.q, exact.q);
@@ -46,7 +46,7 @@ TEST(Recording, IsTheTruthUnlessToldOtherwise) {
   EXPECT_EQ(log.tau, exact.tau);
 }
 
-TEST(Recording, StampsWobbleAndReadingsDoNot) {
+TEST(Recording, JitterAffectsTimeStampsButNotMeasurements) {
   const Log log = recorded_as({.jitter_s = 0.001});
   expect_ascending(log.time);
   double square = 0.0;
@@ -55,13 +55,13 @@ TEST(Recording, StampsWobbleAndReadingsDoNot) {
   EXPECT_EQ(log.q, exact_log().q);
 }
 
-TEST(Recording, StampsAscendHoweverTheyWobble) {
+TEST(Recording, TimeStampsAscendDespiteJitter) {
   expect_ascending(recorded_as({.jitter_s = 0.03}).time);
   expect_ascending(recorded_as({.jitter_s = 0.03, .stamp_resolution_s = 0.004}).time);
   expect_ascending(recorded_as({.jitter_s = 0.03, .stamp_resolution_s = kPeriod_s}).time);
 }
 
-TEST(Recording, StampsAreRounded) {
+TEST(Recording, TimeStampsAreRounded) {
   const Log log = recorded_as({.stamp_resolution_s = 0.004});
   expect_ascending(log.time);
   for (int k = 0; k < kRows; ++k) {
@@ -79,12 +79,12 @@ TEST(Recording, RowsAreLostByTheirShare) {
   for (int k = 0; k < log.rows(); ++k) ASSERT_EQ(log.time[k], log.tau[0][k] * kPeriod_s) << "whole rows";
 }
 
-TEST(Recording, WobbleDoesNotChangeWhichRowsAreLost) {
+TEST(Recording, JitterDoesNotChangeWhichRowsAreLost) {
   EXPECT_EQ(recorded_as({.lost = 0.1}).tau, recorded_as({.jitter_s = 0.001, .lost = 0.1}).tau);
   EXPECT_NE(recorded_as({.lost = 0.1}).tau, recorded_as({.lost = 0.1}, 2).tau);
 }
 
-TEST(Recording, TorqueIsThatOfRowsBefore) {
+TEST(Recording, TorqueIsLateByWholeRows) {
   const Log log = recorded_as({.torque_late_rows = 3});
   for (int k = 0; k < kRows; ++k) ASSERT_EQ(log.tau[0][k], std::max(k - 3, 0));
   EXPECT_EQ(log.q, exact_log().q);
@@ -115,7 +115,7 @@ TEST(Recording, AFilteredVelocityIsLateByItsTimeConstant) {
   EXPECT_NEAR(log.dq[0].back(), 2.0 * (ramp.rows() - 1 - rows) * kPeriod_s, 1e-9);
 }
 
-TEST(Recording, OfARunChangesNoTruth) {
+TEST(Recording, DoesNotChangeTheTruthOfARun) {
   SimulationSpec spec = with_fault(FaultKind::torque_loss, 1_joint, 1.0, 0.5);
   spec.noise.q_resolution = {1e-4, 1e-4, 1e-5};
   const SimulatedRun exact = simulate(industrial(), spec, 3);
@@ -139,7 +139,7 @@ void expect_refused(const RecordingSpec& spec, const char* key) {
   }
 }
 
-TEST(Recording, IsRefusedWhenItCannotBe) {
+TEST(Recording, ImpossibleValuesAreRefused) {
   expect_refused({.jitter_s = -1e-3}, "jitter_s");
   expect_refused({.stamp_resolution_s = 0.02}, "stamp_resolution_s");
   expect_refused({.lost = 1.0}, "lost");

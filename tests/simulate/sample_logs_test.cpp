@@ -53,9 +53,9 @@ void expect_same_logs(const std::string& robot) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(SampleLogs, BenchIsMadeByItsSpec) { expect_same_logs("bench"); }
-TEST(SampleLogs, IndustrialIsMadeByItsSpec) { expect_same_logs("industrial"); }
-TEST(SampleLogs, RrprIsMadeByItsSpec) { expect_same_logs("rrpr"); }
+TEST(SampleLogs, BenchLogsEqualTheOutputOfTheirSpec) { expect_same_logs("bench"); }
+TEST(SampleLogs, IndustrialLogsEqualTheOutputOfTheirSpec) { expect_same_logs("industrial"); }
+TEST(SampleLogs, RrprLogsEqualTheOutputOfTheirSpec) { expect_same_logs("rrpr"); }
 
 TEST(SampleLogs, EveryRobotHasHealthyLogsAndEveryFaultKind) {
   for (const char* robot : {"bench", "industrial", "rrpr"}) {

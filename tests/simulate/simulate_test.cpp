@@ -28,7 +28,7 @@ TEST(Simulate, HealthyRunFollowsItsReferenceAndTheDynamics) {
   EXPECT_GT(travelled, 10.0);
 }
 
-TEST(Simulate, SameSeedSameBytesOtherSeedOtherRun) {
+TEST(Simulate, TheSameSeedGivesTheSameRunAndAnotherSeedAnotherRun) {
   SimulationSpec spec = short_run(0.5);
   spec.noise.q = {1e-4, 1e-4, 2e-5};
   spec.noise.dq = {5e-3, 5e-3, 1e-3};
@@ -65,7 +65,7 @@ TEST(Simulate, NoiseHasTheStatedSize) {
   }
 }
 
-TEST(Simulate, EncoderStepsAreMultiples) {
+TEST(Simulate, PositionsAreMultiplesOfTheEncoderStep) {
   SimulationSpec spec = short_run(1.0);
   spec.noise.q_resolution = {0.01, 0.01, 0.001};
   const SimulatedRun run = simulate(industrial(), spec);
@@ -101,7 +101,7 @@ TEST(Simulate, OverspeedEndsTheLog) {
   EXPECT_EQ(run.truth.at(0).end_s, run.log.time.back());
 }
 
-TEST(Simulate, HeldTorqueAndFastControlLoggedSlowly) {
+TEST(Simulate, HeldTorqueAndFastControlDifferAtTheSameSamplePeriod) {
   const Robot robot = preset_robot("RRP");
   SimulationSpec spec = short_run(4.0);
   spec.sample_period_s = spec.control_period_s = 0.073;
@@ -157,7 +157,7 @@ TEST(Simulate, FrictionSharperThanAnyStepStaysBounded) {
   EXPECT_LT(largest_difference(sharp.q, soft.q), 1e-3);
 }
 
-TEST(Simulate, PdWithGravityHoldsAgainstIt) {
+TEST(Simulate, PdControlWithGravityHoldsTheJointAgainstItsWeight) {
   SimulationSpec spec = short_run();
   spec.controller.kind = ControllerKind::pd_gravity;
   spec.controller.bandwidth_rad_s = 8.0;
@@ -188,7 +188,7 @@ void expect_refused(const SimulationSpec& spec, const char* key) {
   }
 }
 
-TEST(Simulate, RefusesSpecsThatDoNotFit) {
+TEST(Simulate, RefusesInvalidSpecs) {
   SimulationSpec spec = short_run();
   spec.control_period_s = 0.0007;
   expect_refused(spec, "control_period_s");

@@ -53,7 +53,7 @@ void expect_error(const std::string& text, const std::vector<std::string>& parts
   }
 }
 
-TEST(SpecFile, RunsTakeTheFilesKeysAndReplaceThem) {
+TEST(SpecFile, RunsInheritTheKeysOfTheFileAndMayReplaceThem) {
   const SimulationFile file = parse(kSpec);
   EXPECT_EQ(file.robot.chain.links[1].mass, 0.8);
   ASSERT_EQ(file.runs.size(), 2u);
@@ -72,7 +72,7 @@ TEST(SpecFile, RunsTakeTheFilesKeysAndReplaceThem) {
   EXPECT_TRUE(healthy.simulation.faults.empty());
 }
 
-TEST(SpecFile, HeldFollowsTheRunsOwnSamplePeriod) {
+TEST(SpecFile, HeldControlHasTheSamplePeriodOfTheRun) {
   const SimulationFile file = parse(
       "robot = {axes = \"RRP\"}\ncontrol_period_s = \"held\"\n[[run]]\nname = \"a\"\nsample_period_s = 0.02\n"
       "[[run]]\nname = \"b\"\nsample_period_s = 0.02\ncontrol_period_s = 0.01");
@@ -86,7 +86,7 @@ TEST(SpecFile, SeedCanBeOverridden) {
   EXPECT_EQ(file.runs[1].seed, 77u);  // the run's own seed stays
 }
 
-TEST(SpecFile, LabelsTellTheTruth) {
+TEST(SpecFile, LabelsHoldTheTrueFaults) {
   const SimulationFile file = parse(kSpec);
   const SimulatedRun healthy = simulate(file.robot, file.runs[0].simulation, file.runs[0].seed);
   EXPECT_EQ(label_lines(file, file.runs[0], healthy),

@@ -19,7 +19,7 @@ SimulationSpec spec_with(const std::string& sections) {
 
 using Numbers = std::vector<double>;
 
-TEST(SpecSections, GearsAndFriction) {
+TEST(SpecSections, GearsAndFrictionAreRead) {
   const MachineSpec machine = spec_with(R"(
 [gears]
 stiffness = [9000, 4000, 0]
@@ -43,7 +43,7 @@ time_s = 600)")
   EXPECT_EQ(machine.warm_up.time_s, (Numbers{600, 600, 600}));
 }
 
-TEST(SpecSections, WorkPieceAndRecording) {
+TEST(SpecSections, WorkPieceAndRecordingAreRead) {
   const SimulationSpec spec = spec_with(R"(
 [work_piece]
 mass = 0.6
@@ -93,7 +93,7 @@ void expect_error(const std::string& sections, const std::vector<std::string>& p
   }
 }
 
-TEST(SpecSections, WhatIsNoSuchValueIsNamed) {
+TEST(SpecSections, InvalidValuesAndKeysAreNamed) {
   for (const char* key : {"stiffness", "damping", "play", "motor_inertia"})
     expect_error(std::string("[gears]\n") + key + " = [1, 2]", {"line 4", std::string("gears.") + key});
   for (const char* key :
@@ -107,7 +107,7 @@ TEST(SpecSections, WhatIsNoSuchValueIsNamed) {
   expect_error("[recording]\ntorque_late_rows = 1.5", {"recording.torque_late_rows"});
 }
 
-TEST(SpecSections, WhatDoesNotFitIsNamed) {
+TEST(SpecSections, InconsistentValuesAreNamedWithTheirRun) {
   expect_error("[gears]\nstiffness = 5000", {"run \"a\"", "gears.motor_inertia"});
   expect_error("[gears]\nplay = 0.001", {"run \"a\"", "gears.play", "rigid"});
   expect_error("[gears]\ndamping = 1", {"run \"a\"", "gears.damping", "rigid"});
@@ -121,7 +121,7 @@ TEST(SpecSections, WhatDoesNotFitIsNamed) {
 }
 
 /// The examples of docs/simulate.md; a robot file they name is replaced by axes.
-TEST(SpecSections, ExamplesOfTheDocumentationAreSpecs) {
+TEST(SpecSections, ExamplesOfTheDocumentationAreValidSpecs) {
   const std::string page = read_file(FAULTLINE_SOURCE_DIR "/docs/simulate.md");
   const std::string fence = "```toml\n", file_name = "\"robot.toml\"";
   int examples = 0;

@@ -15,7 +15,7 @@ namespace {
 constexpr WorkPieceSpec kPiece{
     .mass = 0.8, .carried_min_s = 0.5, .carried_max_s = 0.9, .empty_min_s = 1.0, .empty_max_s = 1.6};
 
-TEST(WorkPiece, ComesAndGoesWithinItsTimes) {
+TEST(WorkPiece, IsPickedUpAndPutDownWithinItsTimes) {
   const std::vector<SimulatedFault> pieces = carried(kPiece, 3, 200.0, Random(3));
   ASSERT_GT(pieces.size(), 70u);
   double put_down = 0.0, shortest = 1e9, longest = 0.0;
@@ -42,7 +42,7 @@ SimulationSpec carrying(double duration_s) {
   return spec;
 }
 
-TEST(WorkPiece, WeighsInTheLogAndIsInNoTruth) {
+TEST(WorkPiece, AddsWeightToTheLogButIsNotInTheTruth) {
   Robot smooth = industrial();
   smooth.chain.friction[2] = {};
   SimulationSpec spec = carrying(10.0);
@@ -65,7 +65,7 @@ TEST(WorkPiece, WeighsInTheLogAndIsInNoTruth) {
   EXPECT_TRUE(run.truth.empty());
 }
 
-TEST(WorkPiece, AFaultBesideItStaysTheOnlyTruth) {
+TEST(WorkPiece, AFaultBesideAWorkPieceIsTheOnlyTruth) {
   SimulationFile file;
   file.robot = industrial();
   RunSpec spec;
@@ -100,7 +100,7 @@ void expect_refused(const WorkPieceSpec& spec, const char* key) {
   }
 }
 
-TEST(WorkPiece, IsRefusedWhenItCannotBe) {
+TEST(WorkPiece, ImpossibleValuesAreRefused) {
   expect_refused({.mass = -1.0}, "mass");
   expect_refused({.mass = 1.0, .carried_min_s = 0.0}, "carried_s");
   expect_refused({.mass = 1.0, .carried_min_s = 2.0, .carried_max_s = 1.0}, "carried_s");

@@ -201,9 +201,11 @@ MonitoredLog monitor_tracking(LogSource& log, const Model& model) {
   MonitoredLog out;
   out.log = read_facts(log, model, [&](const Log& segment) { relations.take(segment); });
   relations.finish();
-  out.log.is_tracked = true;
   out.relation_episodes = relations.episodes();
   out.relations_judged_s = relations.judged_s();
+  out.log.is_tracked = true;
+  out.log.not_tracked = joints_not_tracked(model, out.relations_judged_s);
+  out.log.judgeable_rows = std::min(out.log.judgeable_rows, rows_tracked(model, out.relations_judged_s));
   return out;
 }
 

@@ -41,7 +41,7 @@ Json analysis(const Json& log, const std::string& name) {
   return {};
 }
 
-TEST(InspectionReport, AHealthyLogIsSoundWholeAndGoodForAll) {
+TEST(InspectionReport, AHealthyLogIsSoundCompleteAndFitForTorqueAnalyses) {
   const Json log = inspected(log_text(2000));
   EXPECT_EQ(log.at("verdict"), "sound");
   EXPECT_EQ(log.at("completeness"), 1.0);
@@ -52,7 +52,7 @@ TEST(InspectionReport, AHealthyLogIsSoundWholeAndGoodForAll) {
   EXPECT_EQ(analysis(log, "tracking").at("fit"), "impossible");
 }
 
-TEST(InspectionReport, SpeaksOfTheRecordingAloneAndLeavesTheRobotToDiagnose) {
+TEST(InspectionReport, JudgesOnlyTheRecordingAndRefersToDiagnoseForTheRobot) {
   const TemporaryFolder folder;
   const std::string log = folder.write("run.csv", log_text(2000)), page = folder.file("page.html");
   const std::string text = run_program({"inspect", log, "--html", page}).out;
@@ -63,7 +63,7 @@ TEST(InspectionReport, SpeaksOfTheRecordingAloneAndLeavesTheRobotToDiagnose) {
   }
 }
 
-TEST(InspectionReport, GapsAreListedAndMissedInTheCompleteness) {
+TEST(InspectionReport, GapsAreListedAndReduceTheCompleteness) {
   const Json log = inspected(log_text(2000, 999));
   EXPECT_EQ(log.at("verdict"), "doubtful");
   const Json gap = log.at("time").at("listed_gaps").at(0);
@@ -73,7 +73,7 @@ TEST(InspectionReport, GapsAreListedAndMissedInTheCompleteness) {
   EXPECT_NEAR(log.at("completeness"), 2000.0 / 2200.0, 1e-3);
 }
 
-TEST(InspectionReport, WithoutTorqueOnlyMotionIsLeft) {
+TEST(InspectionReport, ALogWithoutTorqueAllowsOnlyMotionAnalysis) {
   const Json log = inspected(log_text(2000, 1 << 30, false));
   for (const char* name : {"identify", "learn", "torque_residuals"}) {
     EXPECT_EQ(analysis(log, name).at("fit"), "impossible") << name;
@@ -82,18 +82,18 @@ TEST(InspectionReport, WithoutTorqueOnlyMotionIsLeft) {
   EXPECT_EQ(analysis(log, "motion").at("fit"), "limited");
 }
 
-TEST(InspectionReport, AShortLogIsPoorForIdentification) {
+TEST(InspectionReport, AShortLogIsOfLimitedUseForIdentification) {
   EXPECT_EQ(analysis(inspected(log_text(100)), "identify").at("fit"), "limited");
   EXPECT_EQ(analysis(inspected(log_text(3)), "identify").at("fit"), "impossible");
 }
 
-TEST(InspectionReport, ATableWithoutJointsIsGoodForNothing) {
+TEST(InspectionReport, ATableWithoutJointsAllowsNoAnalysis) {
   const Json log = inspected("a,b\n1,2\n3,4\n");
   EXPECT_EQ(log.at("verdict"), "no_joint_log");
   EXPECT_EQ(analysis(log, "motion").at("fit"), "impossible");
 }
 
-TEST(InspectionReport, ThePageStandsAloneAndMarksAGap) {
+TEST(InspectionReport, ThePageNeedsNoScriptAndMarksAGap) {
   const TemporaryFolder folder;
   const std::string page = folder.file("page.html");
   const auto page_of = [&](const std::string& text) {

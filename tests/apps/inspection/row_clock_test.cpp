@@ -35,7 +35,7 @@ TEST(RowClock, TheSamplePeriodOfALogWithoutClockComesFromPositionAndVelocity) {
   EXPECT_NEAR(estimate->period_s, kPeriod_s, 1e-3 * kPeriod_s);
 }
 
-TEST(RowClock, JointsThatDisagreeTellNoPeriod) {
+TEST(RowClock, JointsThatDisagreeGiveNoSamplePeriod) {
   RowClock clock(table(), {}, "log.csv");
   clock.add(block_without_clock(57.3));
   EXPECT_FALSE(clock.estimate());

@@ -64,7 +64,7 @@ TEST(Suggestion, ALogInSiNeedsNoUnits) {
   }
 }
 
-TEST(Suggestion, DegreesAndMillimetresAreTold) {
+TEST(Suggestion, DegreesAndMillimetresAreRecognised) {
   Dialect dialect;
   dialect.angle = dialect.angular_speed = kDegrees;
   dialect.length = dialect.speed = 1000.0;
@@ -76,7 +76,7 @@ TEST(Suggestion, DegreesAndMillimetresAreTold) {
   EXPECT_EQ(column(robot, "dq2").unit, "mm/s");
 }
 
-TEST(Suggestion, DegreesBesideRadiansASecondAreTold) {
+TEST(Suggestion, DegreesBesideRadiansPerSecondAreRecognised) {
   Dialect dialect;
   dialect.angle = kDegrees;
   const Robot robot = suggested(log_text(dialect));
@@ -84,7 +84,7 @@ TEST(Suggestion, DegreesBesideRadiansASecondAreTold) {
   EXPECT_EQ(column(robot, "dq1").unit, "");
 }
 
-TEST(Suggestion, MillisecondsAndMicrosecondsAreTold) {
+TEST(Suggestion, MillisecondsAndMicrosecondsAreRecognised) {
   Dialect dialect;
   dialect.time = 1e3;
   EXPECT_EQ(column(suggested(log_text(dialect)), "t").unit, "ms");
@@ -92,7 +92,7 @@ TEST(Suggestion, MillisecondsAndMicrosecondsAreTold) {
   EXPECT_EQ(column(suggested(log_text(dialect)), "t").unit, "us");
 }
 
-TEST(Suggestion, WrongSignsAreTold) {
+TEST(Suggestion, WrongSignsAreRecognised) {
   Dialect dialect;
   dialect.angular_speed = dialect.torque = -1.0;
   const Robot robot = suggested(log_text(dialect));
@@ -101,7 +101,7 @@ TEST(Suggestion, WrongSignsAreTold) {
   EXPECT_EQ(column(robot, "tau2").sign, 1.0);
 }
 
-TEST(Suggestion, NamesThatSayNothingAreReadByTheData) {
+TEST(Suggestion, ColumnsWithMeaninglessNamesAreRecognisedByTheirData) {
   Dialect dialect;
   dialect.header = "ca,cb,cc,cd,ce,cf,cg";
   const Robot robot = suggested(log_text(dialect));
@@ -113,14 +113,14 @@ TEST(Suggestion, NamesThatSayNothingAreReadByTheData) {
   EXPECT_EQ(column(robot, "tau2").name, "cg");
 }
 
-TEST(Suggestion, ACurrentIsNotTakenAsTorqueInSilence) {
+TEST(Suggestion, ATorqueColumnInAmperesIsSuggestedAsACurrent) {
   Dialect dialect;
   dialect.header = "t,q1,q2,dq1,dq2,tau1 [A],tau2 [A]";
   const Robot robot = suggested(log_text(dialect));
   EXPECT_EQ(robot.log.torque, TorqueMeaning::current);
 }
 
-TEST(Suggestion, AxesOfRecordedLogsAreTold) {
+TEST(Suggestion, AxesOfRecordedLogsAreRecognised) {
   const auto folder = shared_data();
   if (folder.empty()) return;
   for (const auto& [log, axes] : {std::pair{"independent-simulation/t_000.csv", "RRP"},
@@ -133,14 +133,14 @@ TEST(Suggestion, AxesOfRecordedLogsAreTold) {
   }
 }
 
-TEST(Suggestion, StandardOutputHoldsTheFileAlone) {
+TEST(Suggestion, StandardOutputHoldsOnlyTheRobotFile) {
   const TemporaryFolder folder;
   const ProgramRun run = run_program({"inspect", folder.write("run.csv", log_text({})), "--suggest", "-"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(robot_from_toml(run.out, "it").axes, "RP");
 }
 
-TEST(Suggestion, TheLogIsNotOverwrittenAndOneLogIsAsked) {
+TEST(Suggestion, AnOutputThatIsTheLogIsRefusedAndSoAreTwoLogs) {
   const TemporaryFolder folder;
   const std::string log = folder.write("run.csv", log_text({}));
   EXPECT_EQ(run_program({"inspect", log, "--suggest", log}).status, 2);
@@ -148,7 +148,7 @@ TEST(Suggestion, TheLogIsNotOverwrittenAndOneLogIsAsked) {
   EXPECT_EQ(run_program({"inspect", log, log, "--suggest", folder.file("robot.toml")}).status, 2);
 }
 
-TEST(Suggestion, ATableWithoutPositionsIsRefusedWithWhatToDo) {
+TEST(Suggestion, ATableWithoutPositionsIsRefusedWithAdvice) {
   const TemporaryFolder folder;
   const ProgramRun run =
       run_program({"inspect", folder.write("run.csv", "a,b\n1,2\n3,4\n"), "--suggest", "-"});
@@ -156,7 +156,7 @@ TEST(Suggestion, ATableWithoutPositionsIsRefusedWithWhatToDo) {
   EXPECT_NE(run.err.find("[log.columns] q1"), std::string::npos) << run.err;
 }
 
-TEST(Suggestion, ColumnsBeyondTheFirst256AreNotLookedAt) {
+TEST(Suggestion, ColumnsBeyondTheFirst256AreIgnored) {
   const TemporaryFolder folder;
   std::string header, row;
   for (int i = 0; i < 300; ++i) header += "x" + std::to_string(i) + "p,", row += "1,";
@@ -170,7 +170,7 @@ TEST(Suggestion, ColumnsBeyondTheFirst256AreNotLookedAt) {
   EXPECT_LE(run_program({"inspect", log("q1,", "t"), "--suggest", "-"}).status, 3);
 }
 
-TEST(Suggestion, HostileNamesStayInTheirQuotes) {
+TEST(Suggestion, HostileNamesStayQuoted) {
   Dialect dialect;
   dialect.header = "t,\"q1\"\"]\\x\",q2,dq1,dq2,tau1,tau2";
   const TemporaryFolder folder;
@@ -202,7 +202,7 @@ std::string log_without_positions(const std::string& time_name, bool with_angles
   return text;
 }
 
-TEST(Suggestion, CountersTemperaturesAndCurrentsAreNoPositions) {
+TEST(Suggestion, CountersTemperaturesAndCurrentsAreNotTakenForPositions) {
   const TemporaryFolder folder;
   for (const char* time : {"Timestamp", "Zeile"}) {
     const std::string log = folder.write("run.csv", log_without_positions(time, false));

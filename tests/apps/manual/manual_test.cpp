@@ -17,7 +17,7 @@ std::string offered_by_bash(const std::string& script, const std::string& words,
   return run_command({"bash", "-c", line}).out;
 }
 
-TEST(Manual, UnknownCommandsAndOptionsAreAnsweredWithTheNearest) {
+TEST(Manual, AnErrorOnAnUnknownCommandOrOptionSuggestsTheNearestName) {
   const auto said = [](const std::vector<std::string>& words) {
     const ProgramRun run = run_program(words);
     EXPECT_EQ(run.status, 2);
@@ -40,7 +40,7 @@ TEST(Manual, AValueOrAFileIsNotTakenForACommand) {
             std::string::npos);
 }
 
-TEST(Manual, HelpOfACommandIsWhatItsOwnOptionPrints) {
+TEST(Manual, HelpOfACommandPrintsTheSameAsItsHelpOption) {
   EXPECT_EQ(run_program({"help", "golden", "check"}).out, run_program({"golden", "check", "--help"}).out);
   EXPECT_EQ(run_program({"help"}).out, run_program({"--help"}).out);
 }
@@ -66,7 +66,7 @@ TEST(Manual, EveryCommandHasAManPageThatNamesItsOptions) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
 }
 
-TEST(Manual, BashCompletesCommandsOptionsAndFewWords) {
+TEST(Manual, BashCompletesCommandsOptionsAndFixedValues) {
   const TemporaryFolder folder;
   const std::string script = folder.write("faultline", run_program({"completion", "bash"}).out);
   EXPECT_EQ(offered_by_bash(script, "faultline diag", 1), "diagnose\n");
@@ -80,7 +80,7 @@ TEST(Manual, BashCompletesCommandsOptionsAndFewWords) {
   EXPECT_EQ(offered_by_bash(script, "faultline diagnose --model ''", 3), "\n") << "files are the shell's own";
 }
 
-TEST(Manual, ScriptsOfOtherShellsParse) {
+TEST(Manual, CompletionScriptsForZshAndFishParse) {
   for (const std::string shell : {"zsh", "fish"}) {
     const TemporaryFolder folder;
     const ProgramRun script = run_program({"completion", shell});

@@ -8,14 +8,14 @@ namespace {
 
 const std::vector<std::string> kNames{"diagnose", "learn", "golden", "help"};
 
-TEST(NearestName, ALetterLeftOutAddedChangedOrExchanged) {
+TEST(NearestName, ANameWithAMissingExtraWrongOrSwappedLetterIsFound) {
   for (const char* typed : {"diagnos", "diagnosee", "diagnoze", "daignose"})
     EXPECT_EQ(nearest_name(typed, kNames), "diagnose") << typed;
 }
 
-TEST(NearestName, ABeginningIsNear) { EXPECT_EQ(nearest_name("diag", kNames), "diagnose"); }
+TEST(NearestName, TheBeginningOfANameIsFound) { EXPECT_EQ(nearest_name("diag", kNames), "diagnose"); }
 
-TEST(NearestName, WhatIsFarFromAllHasNone) {
+TEST(NearestName, AWordFarFromAllNamesHasNoNearestName) {
   EXPECT_EQ(nearest_name("convert", kNames), "");
   EXPECT_EQ(nearest_name("x", kNames), "");
 }

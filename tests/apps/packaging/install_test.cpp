@@ -38,11 +38,11 @@ TEST_F(InstalledTree, HoldsProgramManualCompletionPresetsSamplesAndLicence) {
     EXPECT_TRUE(has(path)) << path;
 }
 
-TEST_F(InstalledTree, TheProgramLooksForLibrariesInNoRelativeFolder) {
+TEST_F(InstalledTree, TheProgramHasNoRelativeFolderInItsRunPath) {
   EXPECT_EQ(relative_search_folders(prefix() + "/bin/faultline"), std::vector<std::string>());
 }
 
-TEST_F(InstalledTree, TheProgramWorksThereAndKnowsItsPresets) {
+TEST_F(InstalledTree, TheInstalledProgramWorksAndFindsItsPresets) {
   const std::string program = prefix() + "/bin/faultline";
   EXPECT_EQ(run_command({program, "--version"}).out, "faultline " FAULTLINE_VERSION "\n");
   const std::string log =
@@ -54,7 +54,7 @@ TEST_F(InstalledTree, TheProgramWorksThereAndKnowsItsPresets) {
   EXPECT_NE(read_file(out).find("q1"), std::string::npos);
 }
 
-TEST_F(InstalledTree, AProgramOfSomebodyElseFindsLinksAndUsesTheLibrary) {
+TEST_F(InstalledTree, AThirdPartyProgramFindsLinksAndUsesTheLibrary) {
   const std::string build = folder_.file("example");
   const ProgramRun configured =
       run_command({"cmake", "-G", "Ninja", "-S", kSource + "/tests/apps/packaging/example", "-B", build,

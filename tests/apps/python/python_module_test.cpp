@@ -18,7 +18,7 @@ const fs::path kTests = fs::path(FAULTLINE_SOURCE_DIR) / "tests/apps/python";
 
 class PythonModule : public testing::TestWithParam<const char*> {};
 
-TEST_P(PythonModule, DoesAsItsTestsSay) {
+TEST_P(PythonModule, PassesItsPythonTests) {
   SKIP_UNLESS_PYTHON_MODULE();
   const std::string command = "cd '" + kTests.string() +
                               "' && PYTHONDONTWRITEBYTECODE=1 PYTHONPATH='" FAULTLINE_PYTHON_DIR

@@ -31,7 +31,7 @@ TEST(IndexTrends, NeedTwoJudgedLogs) {
   EXPECT_EQ(index_trends({}), "");
 }
 
-TEST(IndexTrends, StandInTheOrderOfStartOnlyWhenAllLogsTellTheDate) {
+TEST(IndexTrends, AreOrderedByStartTimeOnlyIfAllLogsHaveADate) {
   std::vector<BatchRow> rows = dated();
   EXPECT_TRUE(has(index_trends(rows), "in the order of their start"));
   std::vector<BatchRow> sorted = {rows[1], rows[2], rows[0]};
@@ -41,7 +41,7 @@ TEST(IndexTrends, StandInTheOrderOfStartOnlyWhenAllLogsTellTheDate) {
   EXPECT_NE(index_trends(rows), index_trends(sorted));
 }
 
-TEST(IndexTrends, FoldersAreComparedWhenThereAreSome) {
+TEST(IndexTrends, FoldersAreComparedIfThereAreSeveral) {
   std::vector<BatchRow> rows = dated();
   EXPECT_TRUE(has(index_trends(rows), "residual by folder"));
   rows[2].log = "a/3.csv";
@@ -59,7 +59,7 @@ TEST(IndexTrends, ParametersNearZeroOrInOneLogOnlyAreLeftOut) {
   EXPECT_FALSE(has(page, "fv1"));
 }
 
-TEST(IndexTrends, ManyLogsShareAPointAndNoPeakIsLost) {
+TEST(IndexTrends, PointsThatManyLogsShareKeepThePeaks) {
   std::vector<BatchRow> flat, peak;
   for (int i = 0; i < 1000; ++i) flat.push_back(row("a/" + std::to_string(1000 + i) + ".csv", 0.0, 1.0));
   peak = flat;
@@ -68,7 +68,7 @@ TEST(IndexTrends, ManyLogsShareAPointAndNoPeakIsLost) {
   EXPECT_NE(index_trends(peak), index_trends(flat));
 }
 
-TEST(IndexThumbnail, HasABarAFaultAndIsEmptyWithoutASpanOfTime) {
+TEST(IndexThumbnail, HasABarPerFaultAndIsEmptyForALogWithoutDuration) {
   BatchRow one = row("a.csv", 0.0, 1.0);
   EXPECT_FALSE(has(index_thumbnail(one), "<rect"));
   one.faults = {{{FaultKind::locked, 2_joint}, 2.5, 5.0, 7.5, 0.9}};

@@ -86,14 +86,14 @@ double worst_of_two_of_any_size(Two f, TwoLong truth) {
   return most;
 }
 
-TEST(ElementaryAccuracy, Exp) {
+TEST(ElementaryAccuracy, ExpIsAccurate) {
   EXPECT_LT(worst(exp, expl, {-1.0, 1.0}), kRounded);
   EXPECT_LT(worst(exp, expl, {-708.0, 709.78}), kRounded);
   EXPECT_LT(worst(exp, expl, {-745.2, -708.0}), kSubnormal);
   EXPECT_LT(worst_of_any_size(exp, expl), kSubnormal);
 }
 
-TEST(ElementaryAccuracy, Logarithms) {
+TEST(ElementaryAccuracy, LogarithmsAreAccurate) {
   EXPECT_LT(worst(log, logl, {0.5, 2.0}), kRounded);
   EXPECT_LT(worst(log, logl, {0.99, 1.01}), kRounded);
   EXPECT_LT(worst(log, logl, {0.0, 1e6}), kRounded);
@@ -105,7 +105,7 @@ TEST(ElementaryAccuracy, Logarithms) {
   EXPECT_LT(worst_of_any_size(log1p, log1pl), kRounded);
 }
 
-TEST(ElementaryAccuracy, SineAndCosine) {
+TEST(ElementaryAccuracy, SineAndCosineAreAccurate) {
   constexpr double kLimit = 0.9;
   for (const Range range : {Range{-0.8, 0.8}, {-7.0, 7.0}, {-1e5, 1e5}, {9e5, 1.1e6}, {1e6, 1e15}}) {
     EXPECT_LT(worst(sin, sinl, range), kLimit) << range.high;
@@ -115,7 +115,7 @@ TEST(ElementaryAccuracy, SineAndCosine) {
   EXPECT_LT(worst_of_any_size(cos, cosl), kLimit);
 }
 
-TEST(ElementaryAccuracy, SineAndCosineNearWholeRightAngles) {
+TEST(ElementaryAccuracy, SineAndCosineNearMultiplesOfRightAnglesAreAccurate) {
   Random random(3);
   for (int i = 0; i < kArguments; ++i) {
     const double x = std::floor(1e6 * random.uniform()) * (std::numbers::pi / 2.0);
@@ -124,14 +124,14 @@ TEST(ElementaryAccuracy, SineAndCosineNearWholeRightAngles) {
   }
 }
 
-TEST(ElementaryAccuracy, Tanh) {
+TEST(ElementaryAccuracy, TanhIsAccurate) {
   constexpr double kLimit = 0.95;
   for (const Range range : {Range{-0.54, 0.54}, {-1.0, 1.0}, {0.53, 0.57}, {-25.0, 25.0}})
     EXPECT_LT(worst(tanh, tanhl, range), kLimit) << range.high;
   EXPECT_LT(worst_of_any_size(tanh, tanhl), kLimit);
 }
 
-TEST(ElementaryAccuracy, AsinhAtanErfc) {
+TEST(ElementaryAccuracy, AsinhAtanAndErfcAreAccurate) {
   EXPECT_LT(worst(asinh, asinhl, {-1.0, 1.0}), kRounded);
   EXPECT_LT(worst(asinh, asinhl, {-1e3, 1e3}), kRounded);
   EXPECT_LT(worst_of_any_size(asinh, asinhl), kRounded);
@@ -143,7 +143,7 @@ TEST(ElementaryAccuracy, AsinhAtanErfc) {
   EXPECT_LT(worst(erfc, erfcl, {26.5, 27.4}), kSubnormal);
 }
 
-TEST(ElementaryAccuracy, OfTwoArguments) {
+TEST(ElementaryAccuracy, FunctionsOfTwoArgumentsAreAccurate) {
   EXPECT_LT(worst_of_two(pow, powl, {0.0, 10.0}, {-10.0, 10.0}), kRounded);
   EXPECT_LT(worst_of_two(pow, powl, {0.9, 1.1}, {-7000.0, 7000.0}), kSubnormal);
   EXPECT_LT(worst_of_two_of_any_size(pow, powl), kSubnormal);

@@ -19,7 +19,7 @@ std::uint64_t mixed(std::uint64_t hash, double value) {
   return hash ^ hash >> 29;
 }
 
-TEST(ElementaryBits, OfManyArgumentsAreThoseWrittenHere) {
+TEST(ElementaryBits, ValuesAtManyArgumentsHaveTheRecordedHash) {
   struct Case {
     const char* name;
     double (*function)(double);
@@ -49,7 +49,7 @@ TEST(ElementaryBits, OfManyArgumentsAreThoseWrittenHere) {
   }
 }
 
-TEST(ElementaryBits, OfManyPairsAreThoseWrittenHere) {
+TEST(ElementaryBits, ValuesAtManyPairsHaveTheRecordedHash) {
   struct Case {
     const char* name;
     double (*function)(double, double);
@@ -70,7 +70,7 @@ TEST(ElementaryBits, OfManyPairsAreThoseWrittenHere) {
   }
 }
 
-TEST(ElementaryBits, OfOneArgumentAreThoseWrittenHere) {
+TEST(ElementaryBits, ValuesAtSingleArgumentsHaveTheRecordedBits) {
   EXPECT_EQ(exp(0.7), 0x1.01c2a61268987p+1);
   EXPECT_EQ(exp(-13.37), 0x1.a31ad57ba12f4p-20);
   EXPECT_EQ(exp(0.001), 0x1.0041919b7ee34p+0);

@@ -12,7 +12,7 @@ namespace faultline {
 namespace {
 
 /// Ceres' trust region calls pow(); of a thousand powers the C library's differ in some.
-TEST(ForLibraries, AsTheCLibrarysTheyGetOurFunctions) {
+TEST(LinkedLibraries, CallTheElementaryFunctionsOfTheProject) {
   Random random(5);
   for (int i = 0; i < 1000; ++i) {
     volatile double x = 20.0 * random.uniform(), y = 3.0 * random.uniform();
@@ -26,7 +26,7 @@ TEST(ForLibraries, AsTheCLibrarysTheyGetOurFunctions) {
 }
 
 /// Eigen cuts the sums of long products to the caches it finds.
-TEST(ForLibraries, EigenSeesTheSameCachesOnEveryMachine) {
+TEST(LinkedLibraries, EigenAssumesTheSameCachesOnEveryMachine) {
   EXPECT_EQ(Eigen::l1CacheSize(), 32 * 1024);
   EXPECT_EQ(Eigen::l2CacheSize(), 256 * 1024);
   EXPECT_EQ(Eigen::l3CacheSize(), 2 * 1024 * 1024);

@@ -28,7 +28,7 @@ void expect_same(double got, double expected, const char* what) {
   EXPECT_EQ(std::signbit(got), std::signbit(expected)) << what;
 }
 
-TEST(ElementaryLimits, OddFunctionsKeepTheSignOfZeroAndTheSmallest) {
+TEST(ElementaryLimits, OddFunctionsReturnSignedZerosAndTinyArguments) {
   const std::vector<One> odd{sin, tanh, asinh, atan, log1p};
   for (std::size_t k = 0; k < odd.size(); ++k)
     for (const double x : {0.0, -0.0, kLeast, -kLeast, 1e-310, -1e-310, 1e-200})
@@ -45,7 +45,7 @@ TEST(ElementaryLimits, NaNStaysNaN) {
   }
 }
 
-TEST(ElementaryLimits, InfinitiesAndPoles) {
+TEST(ElementaryLimits, InfinitiesAndPolesGiveTheirLimits) {
   expect_same(exp(kInf), kInf, "exp");
   expect_same(exp(-kInf), 0.0, "exp");
   expect_same(exp(710.0), kInf, "exp overflows");
@@ -72,7 +72,7 @@ TEST(ElementaryLimits, InfinitiesAndPoles) {
   expect_same(erfc(0.0), 1.0, "erfc");
 }
 
-TEST(ElementaryLimits, TenToWholePowersHasAWholeLogarithm) {
+TEST(ElementaryLimits, WholePowersOfTenHaveExactLogarithms) {
   for (int k = -300; k <= 300; ++k) {
     const double power = std::stod("1e" + std::to_string(k));
     EXPECT_EQ(log10(power), static_cast<double>(k)) << k;
@@ -80,7 +80,7 @@ TEST(ElementaryLimits, TenToWholePowersHasAWholeLogarithm) {
   for (int k = -22; k <= 22; ++k) EXPECT_EQ(pow(10.0, k), std::stod("1e" + std::to_string(k))) << k;
 }
 
-TEST(ElementaryLimits, PowIsAsInC) {
+TEST(ElementaryLimits, PowFollowsTheCStandard) {
   struct Case {
     double x, y, power;
   };
@@ -97,7 +97,7 @@ TEST(ElementaryLimits, PowIsAsInC) {
     expect_same(pow(c.x, c.y), c.power, (std::to_string(c.x) + "^" + std::to_string(c.y)).c_str());
 }
 
-TEST(ElementaryLimits, DirectionsAndLengths) {
+TEST(ElementaryLimits, Atan2AndHypotHandleZerosInfinitiesAndExtremes) {
   constexpr double kPi = 0x1.921fb54442d18p+1;
   expect_same(atan(kInf), kPi / 2.0, "atan");
   expect_same(atan2(0.0, 1.0), 0.0, "atan2");
@@ -120,7 +120,7 @@ TEST(ElementaryLimits, DirectionsAndLengths) {
 }
 
 /// Values known to many digits: what 2^60 and more turns leave.
-TEST(ElementaryLimits, HugeAngles) {
+TEST(ElementaryLimits, SineAndCosineOfHugeAnglesAreAccurate) {
   EXPECT_DOUBLE_EQ(sin(1e22), -0.8522008497671888);
   EXPECT_DOUBLE_EQ(cos(1e22), 0.523214785395139);
   EXPECT_DOUBLE_EQ(sin(1e300), -0.8178819121159085);
@@ -131,7 +131,7 @@ TEST(ElementaryLimits, HugeAngles) {
   EXPECT_EQ(cos(0x1.6ac5b262ca1ffp+849), -0x1.14ae72e6ba22fp-61);
 }
 
-TEST(ElementaryLimits, BothAtOnceAreTheSameBits) {
+TEST(ElementaryLimits, SinCosGivesTheSameBitsAsSinAndCos) {
   for (double x = -1e4; x < 1e4; x += 0.7137) {
     const auto [s, c] = sin_cos(x);
     ASSERT_EQ(s, sin(x));

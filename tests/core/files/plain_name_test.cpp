@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-TEST(PlainName, IsANameInAFolderAndNothingElse) {
+TEST(PlainName, IsANameWithoutFoldersAndControlCharacters) {
   for (const char* name :
        {"run.csv", "runs_a.csv-0123456789ab", "..a", "a..", ".hidden", "H\xc3\xb6he 1.csv", "a\\b"})
     EXPECT_TRUE(is_plain_name(name)) << name;
@@ -18,13 +18,13 @@ TEST(PlainName, IsANameInAFolderAndNothingElse) {
     EXPECT_FALSE(is_plain_name(name)) << name;
 }
 
-TEST(PlainPath, LeadsToAPlaceBelowItsFolder) {
+TEST(PlainPath, StaysBelowItsFolder) {
   for (const char* path : {"run.csv", "logs/run.csv", "a/b/c"}) EXPECT_TRUE(is_plain_path(path)) << path;
   for (const char* path : {"", "/etc/passwd", "../a", "a/../b", "logs/..", "a//b", "./a", "a/", "logs/a\tb"})
     EXPECT_FALSE(is_plain_path(path)) << path;
 }
 
-TEST(PlainLogName, MayHoldWhatIsReplacedWhenItIsShown) {
+TEST(PlainLogName, MayHoldControlCharactersButNotLeaveItsFolder) {
   EXPECT_TRUE(is_plain_log_name("runs/a\nb.csv"));
   EXPECT_FALSE(is_plain_log_name("../a.csv"));
   EXPECT_FALSE(is_plain_log_name("/home/a.csv"));

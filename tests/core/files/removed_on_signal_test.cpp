@@ -44,7 +44,7 @@ int partial_files(const fs::path& folder) {
   while (true) ::pause();
 }
 
-TEST(RemovedOnSignal, NothingHalfWrittenIsLeftAndTheProgramDiesOfTheSignal) {
+TEST(RemovedOnSignal, ASignalEndsTheProgramAndLeavesNoPartialFile) {
   Random random(3);
   for (const int number : {SIGINT, SIGTERM, SIGHUP})
     for (int round = 0; round < 5; ++round) {

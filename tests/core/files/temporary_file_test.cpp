@@ -64,7 +64,7 @@ class Writer {
   pid_t child_ = -1;
 };
 
-TEST(TemporaryFile, VanishesUnlessItIsCommitted) {
+TEST(TemporaryFile, IsRemovedUnlessItIsCommitted) {
   const TemporaryFolder folder;
   { const TemporaryFile file(folder.file("a")); }
   EXPECT_TRUE(names_in(folder.path()).empty());
@@ -74,7 +74,7 @@ TEST(TemporaryFile, VanishesUnlessItIsCommitted) {
   EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"a"});
 }
 
-TEST(TemporaryFile, WhatADeadProgramLeftGoesAndWhatALivingOneWritesStays) {
+TEST(TemporaryFile, FilesOfADeadProgramAreRemovedAndThoseOfALivingOneKept) {
   const TemporaryFolder folder;
   const Writer living(folder.file("living"), false), dead(folder.file("dead"), true);
   ASSERT_EQ(names_in(folder.path()).size(), 2u);
@@ -85,7 +85,7 @@ TEST(TemporaryFile, WhatADeadProgramLeftGoesAndWhatALivingOneWritesStays) {
   EXPECT_EQ(names[1], "new");
 }
 
-TEST(TemporaryFile, NamesOfAnotherMachineGoOnceTheyAreOldAndOthersStay) {
+TEST(TemporaryFile, OldFilesOfAnotherMachineAreRemovedAndOtherFilesKept) {
   const TemporaryFolder folder;
   const auto old = fs::file_time_type::clock::now() - std::chrono::hours(48);
   std::string there = temporary_name("a.json"), new_there = temporary_name("b.json");
@@ -104,7 +104,7 @@ TEST(TemporaryFile, NamesOfAnotherMachineGoOnceTheyAreOldAndOthersStay) {
   EXPECT_EQ(names_in(folder.path()), left);
 }
 
-TEST(TemporaryFile, NamesCannotBeForetoldAndAreRecognised) {
+TEST(TemporaryFile, NamesAreUniqueAndRecognised) {
   const std::string one = temporary_name("folder/a.json"), other = temporary_name("folder/a.json");
   EXPECT_NE(one, other);
   EXPECT_EQ(one.rfind("folder/a.json.partial-", 0), 0u);
@@ -112,7 +112,7 @@ TEST(TemporaryFile, NamesCannotBeForetoldAndAreRecognised) {
   EXPECT_FALSE(is_temporary_name("a.json"));
 }
 
-TEST(AtomicFile, AFileThatIsThereKeepsItsMode) {
+TEST(AtomicFile, AnExistingFileKeepsItsMode) {
   const TemporaryFolder folder;
   const std::string path = folder.write("a", "old");
   for (const mode_t mode : {0600, 0640, 0666, 0755}) {
@@ -131,7 +131,7 @@ TEST(AtomicFile, AReadOnlyFileIsNotReplaced) {
   EXPECT_EQ(read_file(path), "old");
 }
 
-TEST(AtomicFile, SymbolicLinksAreFollowedAlsoToNothingYet) {
+TEST(AtomicFile, SymbolicLinksAreFollowedAlsoToAMissingFile) {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "far");
   folder.write("far/real", "old");
@@ -147,7 +147,7 @@ TEST(AtomicFile, SymbolicLinksAreFollowedAlsoToNothingYet) {
   EXPECT_EQ(names_in(folder.path() / "far"), (std::vector<std::string>{"not_yet", "real", "second"}));
 }
 
-TEST(AtomicFile, LinksWithoutEndAreRefused) {
+TEST(AtomicFile, CircularLinksAreRefused) {
   const TemporaryFolder folder;
   fs::create_symlink("b", folder.path() / "a");
   fs::create_symlink("a", folder.path() / "b");

@@ -8,7 +8,7 @@
 namespace faultline {
 namespace {
 
-TEST(EnvelopeBuilder, ExtremesStandInTheOrderInWhichTheyCame) {
+TEST(EnvelopeBuilder, ExtremesKeepTheirOrderInTime) {
   EnvelopeBuilder builder(3);
   for (const double v : {2.0, 5.0, 1.0, 3.0}) builder.add(0, v);
   for (const double v : {2.0, 1.0, 5.0}) builder.add(1, v);
@@ -31,7 +31,7 @@ TEST(EnvelopeBuilder, AJitteringClockLeavesNoGapsButMissingValuesAndLongGapsDo) 
   for (const int bin : {3, 5}) EXPECT_TRUE(std::isnan(values[2 * bin])) << bin;
 }
 
-TEST(EnvelopeBuilder, OfWhatWasNeverMeasuredIsEmpty) {
+TEST(EnvelopeBuilder, TheEnvelopeOfASignalWithoutValuesIsEmpty) {
   EnvelopeBuilder builder(2);
   builder.add(0, std::nan(""));
   EXPECT_TRUE(builder.envelope().values.empty());

@@ -137,7 +137,7 @@ void evidence_grows_from_the_onset_past_the_threshold() {
 }
 
 // Learning takes seconds, so these share one model in one process.
-TEST(RunCurves, ShowTheRun) {
+TEST(RunCurves, ShowMotionTorqueAndEvidenceOfTheRun) {
   no_peak_is_lost_however_few_the_bins();
   what_is_predicted_is_near_what_is_measured_when_healthy();
   torque_needed_by_the_healthy_robot_is_the_command_while_it_is_healthy();
@@ -146,7 +146,7 @@ TEST(RunCurves, ShowTheRun) {
   evidence_grows_from_the_onset_past_the_threshold();
 }
 
-TEST(ModelFile, KeepsTheIntervals) {
+TEST(ModelFile, KeepsTheIntervalsOfTheParameters) {
   const Model read = model_from_json(model_to_json(learned().model), "model");
   ASSERT_FALSE(read.identification.base_parameters.empty());
   EXPECT_EQ(read.identification.base_parameters[0].ci95, learned().identification.base_parameters[0].ci95);

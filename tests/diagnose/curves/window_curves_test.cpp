@@ -57,7 +57,7 @@ CurveWindow window(double start_s, double end_s, int bins) {
   return made;
 }
 
-TEST(WindowCurves, PredictedMotionIsTheMeasuredOneLessTheResidual) {
+TEST(WindowCurves, PredictedMotionEqualsTheMeasuredMotionMinusTheResidual) {
   const Model model = slide();
   const Log log = rows(9);
   WindowCurves curves(window(0.0, 8.0, 8), model, {});
@@ -72,7 +72,7 @@ TEST(WindowCurves, PredictedMotionIsTheMeasuredOneLessTheResidual) {
   EXPECT_EQ(joint.residual.at(2), 2.0f);
 }
 
-TEST(WindowCurves, RowsOutsideTheWindowDoNotCount) {
+TEST(WindowCurves, RowsOutsideTheWindowAreIgnored) {
   const Model model = slide();
   const Log log = rows(9);
   WindowCurves curves(window(2.0, 4.0, 1), model, {});
@@ -82,7 +82,7 @@ TEST(WindowCurves, RowsOutsideTheWindowDoNotCount) {
   EXPECT_EQ(joint.q_predicted.values, (std::vector<float>{11.5f, 13.5f}));
 }
 
-TEST(WindowCurves, APredictionStandsForTheBinsSinceTheOneBeforeItButNotAcrossAGap) {
+TEST(WindowCurves, APredictionFillsTheBinsSinceThePreviousOneButNoGap) {
   const Model model = slide();
   Log log = rows(9);
   for (int k = 5; k < 9; ++k) log.time[k] += 3.0;  // 4 s, then 8 s

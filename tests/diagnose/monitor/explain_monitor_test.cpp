@@ -44,7 +44,7 @@ ExplainMonitor monitored(const Model& model, const Log& log, int segment_rows,
   return monitor;
 }
 
-TEST(ExplainMonitor, WhereSegmentsEndChangesNothing) {
+TEST(ExplainMonitor, BordersOfSegmentsChangeNothing) {
   const Model m = model();
   Log log = days(1, 0.0);
   lose_torque(log, 4.0);
@@ -66,7 +66,7 @@ TEST(ExplainMonitor, AGapEndsAWindowAndBothPartsAreJudged) {
   EXPECT_NEAR(judged.episodes()[0].onset_s(), log.time.back() - 4.0, 0.05);
 }
 
-TEST(ExplainMonitor, ALogThatWasCutWithItsStampsClosedHasNoFaultThere) {
+TEST(ExplainMonitor, ALogWithACutUnderClosedTimeStampsHasNoFault) {
   const Model m = model();
   const Log log = days(1, 0.0);
   const int from = log.rows() / 2, to = from + static_cast<int>(1.3 / m.sample_period_s);
@@ -106,7 +106,7 @@ TEST(ExplainMonitor, AFaultThatLastsForSeveralWindowsIsOneFaultWithItsEnd) {
   EXPECT_NEAR(judged.episodes()[0].end_s, 151.0, 0.2);
 }
 
-TEST(ExplainMonitor, AFurtherFaultIsFoundBesideOneThatLasts) {
+TEST(ExplainMonitor, AFurtherFaultIsFoundDuringALastingFault) {
   const Model m = model();
   Log log = long_log(37, 150.0);
   lose_torque(log, 20.0);
@@ -137,7 +137,7 @@ TEST(ExplainMonitor, AStretchInTheOverlapOfTwoWindowsIsOneFault) {
   }
 }
 
-TEST(ExplainMonitor, ALawThatIsLeftForLongIsTheAnswerToAFaultOfAnEarlierWindow) {
+TEST(ExplainMonitor, ALongDeviationFromTheLawIsAResponseToAFaultOfAnEarlierWindow) {
   const Model m = model();
   Log log = long_log(40, 150.0);
   lose_torque(log, 20.0, 25.0);
@@ -167,14 +167,14 @@ TEST(ExplainMonitor, AnEncoderThatIsStuckForSeveralWindowsIsOneFaultWithItsEnd) 
   EXPECT_NEAR(judged.episodes()[0].end_s, 110.0, 0.1);
 }
 
-TEST(ExplainMonitor, ALogOfAMomentIsNotJudged) {
+TEST(ExplainMonitor, AVeryShortLogIsNotJudged) {
   const Model m = model();
   const ExplainMonitor judged = monitored(m, slice(days(1, 0.0), 0, 100), 50);
   EXPECT_TRUE(judged.episodes().empty());
   EXPECT_TRUE(judged.day().empty());
 }
 
-TEST(ExplainMonitor, ADayIsWithinItsStatedRange) {
+TEST(ExplainMonitor, NormalRangeOfADayIsAtLeastTheStatedRange) {
   Model m = model();
   m.robot.normal.friction = 0.3;
   const ExplainMonitor judged = monitored(m, days(1, 0.0), 4096);

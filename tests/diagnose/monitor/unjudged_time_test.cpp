@@ -33,16 +33,16 @@ std::vector<UnjudgedStretch> stretches_of(const Log& log, const std::vector<LogR
   return unjudged.stretches();
 }
 
-TEST(UnjudgedTime, ACompleteLogHasNone) { EXPECT_TRUE(stretches_of(complete_log()).empty()); }
+TEST(UnjudgedTime, ACompleteLogHasNoUnjudgedTime) { EXPECT_TRUE(stretches_of(complete_log()).empty()); }
 
-TEST(UnjudgedTime, AMomentWithoutValuesIsNone) {
+TEST(UnjudgedTime, AShortStretchWithoutValuesIsNotReported) {
   Log log = complete_log();
   blank(log.q[0], 300, 340);
   blank(log.tau[1], 600, 640);
   EXPECT_TRUE(stretches_of(log).empty());
 }
 
-TEST(UnjudgedTime, LongerOnesSayWhichJointLacksWhatAndWhen) {
+TEST(UnjudgedTime, LongerStretchesNameJointMissingSignalAndTimes) {
   Log log = complete_log();
   blank(log.q[0], 300, 400);
   blank(log.tau[1], 600, 1000);
@@ -58,7 +58,7 @@ TEST(UnjudgedTime, LongerOnesSayWhichJointLacksWhatAndWhen) {
   EXPECT_EQ(found[1].end_s, log.time.back());
 }
 
-TEST(UnjudgedTime, AtTheEndTenSamplesAreEnoughForTheJointIsNotJudgedAgain) {
+TEST(UnjudgedTime, AShortStretchAtTheEndOfTheLogIsReported) {
   Log log = complete_log();
   blank(log.q[1], 980, 1000);
   const auto found = stretches_of(log);
@@ -78,7 +78,7 @@ TEST(UnjudgedTime, MissingRowsAreAStretchOfAllJoints) {
   EXPECT_NEAR(found[0].end_s - found[0].start_s, 1.01, 1e-9);
 }
 
-TEST(UnjudgedTime, WhatLiesBetweenTwoRunsIsNone) {
+TEST(UnjudgedTime, TheTimeBetweenTwoRunsIsNotReported) {
   Log log = slice(complete_log(), 0, 500);
   append(log, slice(complete_log(), 600, 1000));
   const std::vector<LogRun> runs = {{.run = 1, .start_s = 0.0, .end_s = 4.99},
@@ -106,7 +106,7 @@ std::vector<std::vector<double>*> all_of(Log& log) {
   return {&log.q[0], &log.q[1], &log.tau[0], &log.tau[1]};
 }
 
-TEST(UnjudgedTime, EverySecondEmptyRowIsOneStretchOfTheRows) {
+TEST(UnjudgedTime, ALogWithEverySecondRowEmptyHasOneStretch) {
   const auto found = stretches_of(thinned([](int k) { return k % 2 == 0; }, all_of));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].joint, Joint());
@@ -115,7 +115,7 @@ TEST(UnjudgedTime, EverySecondEmptyRowIsOneStretchOfTheRows) {
   EXPECT_NEAR(found[0].share, 0.5, 0.01);
 }
 
-TEST(UnjudgedTime, EverySecondTorqueOfAJointIsAStretchOfThatJoint) {
+TEST(UnjudgedTime, AJointWithEverySecondTorqueMissingHasOneStretch) {
   const auto found = stretches_of(
       thinned([](int k) { return k % 2 == 0; }, [](Log& log) { return std::vector{&log.tau[1]}; }));
   ASSERT_EQ(found.size(), 1u);
@@ -124,7 +124,7 @@ TEST(UnjudgedTime, EverySecondTorqueOfAJointIsAStretchOfThatJoint) {
   EXPECT_FALSE(found[0].lacks_position);
 }
 
-TEST(UnjudgedTime, AFewPerCentOfEmptyRowsAreNone) {
+TEST(UnjudgedTime, AFewPercentOfEmptyRowsAreNotReported) {
   EXPECT_TRUE(stretches_of(thinned([](int k) { return k % 20 == 0; }, all_of)).empty());
 }
 
@@ -139,20 +139,20 @@ TEST(UnjudgedTime, MissingRowsCountLikeEmptyOnes) {
   EXPECT_GT(found[0].share, 0.7);
 }
 
-TEST(UnjudgedTime, APieceLongerThanAMomentIsNoThinStretch) {
+TEST(UnjudgedTime, ALongEmptyStretchHasAShareOfOne) {
   const auto found = stretches_of(thinned([](int k) { return k < 1900; }, all_of));
   ASSERT_EQ(found.size(), 2u) << "one for each joint";
   for (const UnjudgedStretch& each : found) EXPECT_EQ(each.share, 1.0);
 }
 
-TEST(UnjudgedTime, OfAShortRunAQuarterCounts) {
+TEST(UnjudgedTime, ScatteredEmptyRowsOfAShortRunAreReported) {
   const Log log = slice(thinned([](int k) { return k % 2 == 0; }, all_of), 900, 1300);
   EXPECT_EQ(stretches_of(log).size(), 1u);
   const Log shorter = slice(log, 0, 130);
   EXPECT_TRUE(stretches_of(shorter).empty()) << "less than a moment of it was not judged";
 }
 
-TEST(UnjudgedTime, DoNotDependOnTheSegments) {
+TEST(UnjudgedTime, DoesNotDependOnTheSegments) {
   const Log log = thinned([](int k) { return k % 3 == 0; }, all_of);
   const auto a = stretches_of(log, {}, 7), b = stretches_of(log, {}, kRows);
   ASSERT_EQ(a.size(), 1u);
@@ -161,7 +161,7 @@ TEST(UnjudgedTime, DoNotDependOnTheSegments) {
   EXPECT_EQ(a[0].share, b[0].share);
 }
 
-TEST(UnjudgedTime, ManyShortRunsHaveNone) {
+TEST(UnjudgedTime, ManyShortRunsHaveNoUnjudgedTime) {
   Log log;
   std::vector<LogRun> runs;
   const Log whole = thinned([](int) { return false; }, all_of);

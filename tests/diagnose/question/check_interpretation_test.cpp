@@ -89,12 +89,12 @@ std::vector<WrongReading> wrong_readings() {
           {"time runs 1.5 times", [](Log& log) { scale(log.time, 1.5); }}};
 }
 
-TEST(QuestionReading, AHealthyLogAndOneWithAFaultLaterRaiseNoDoubt) {
+TEST(InterpretationCheck, FindsNothingInAHealthyLogOrALogWithALaterFault) {
   for (const Log& log : {healthy(), healthy(72), collision()})
     EXPECT_TRUE(doubt_of(log).is_empty()) << doubt_of(log).what;
 }
 
-TEST(QuestionReading, TellsWhatTheColumnsOfAHealthyLogMean) {
+TEST(InterpretationCheck, NamesAWrongInterpretationOfAHealthyLog) {
   for (const WrongReading& wrong : wrong_readings()) {
     Log log = healthy();
     wrong.change(log);
@@ -104,7 +104,7 @@ TEST(QuestionReading, TellsWhatTheColumnsOfAHealthyLogMean) {
   }
 }
 
-TEST(QuestionReading, TellsWhatTheColumnsOfAFaultyLogMean) {
+TEST(InterpretationCheck, NamesAWrongInterpretationOfAFaultyLog) {
   const std::vector<WrongReading> all = wrong_readings();
   for (std::size_t i = 0; i < all.size(); i += 3) {
     const WrongReading& wrong = all[i];
@@ -115,13 +115,13 @@ TEST(QuestionReading, TellsWhatTheColumnsOfAFaultyLogMean) {
   }
 }
 
-TEST(QuestionReading, APositionThatJumpsRaisesNoDoubtAboutItsVelocity) {
+TEST(InterpretationCheck, AJumpOfAPositionIsNotAWrongInterpretationOfItsVelocity) {
   Log log = healthy();
   for (int k = 250; k < log.rows(); ++k) log.q[2][k] += 0.02;
   EXPECT_TRUE(doubt_of(log).is_empty()) << doubt_of(log).what;
 }
 
-TEST(QuestionReading, AFaultOfOneJointFromTheFirstRowOnRaisesNoDoubt) {
+TEST(InterpretationCheck, AFaultOfOneJointFromTheFirstRowOnIsNotAWrongInterpretation) {
   for (const auto& [kind, joint, size] :
        {std::tuple{FaultKind::torque_loss, 1_joint, 0.6},
         std::tuple{FaultKind::friction_increase, 2_joint, 5.0},
@@ -132,14 +132,14 @@ TEST(QuestionReading, AFaultOfOneJointFromTheFirstRowOnRaisesNoDoubt) {
   }
 }
 
-TEST(QuestionReading, AnotherRobotIsDoubted) {
+TEST(InterpretationCheck, ALogOfAnotherRobotIsReported) {
   Robot other = preset_robot("RRP");
   other = with_masses_and_lengths(other, {2.0, 1.0, 0.5}, {0.2, 0.15, 0.0});
   const LogMismatch doubt = doubt_of(simulate(other, rrp_run(10.0), 75).log);
   EXPECT_FALSE(doubt.is_empty());
 }
 
-TEST(QuestionReading, ALogWithoutMotionOrTorqueRaisesNoDoubt) {
+TEST(InterpretationCheck, FindsNothingInALogWithoutMotionOrTorque) {
   Log still = healthy();
   for (int j = 0; j < 3; ++j) {
     std::fill(still.q[j].begin(), still.q[j].end(), 0.2);

@@ -30,7 +30,7 @@ void swap_behind(std::vector<double>& a, std::vector<double>& b) {
   std::swap_ranges(a.begin() + kChangedRow, a.end(), b.begin() + kChangedRow);
 }
 
-TEST(QuestionChange, TellsWhatColumnsMeanFromARowOn) {
+TEST(ColumnChange, IsNamedWithItsRow) {
   const std::vector<std::pair<const char*, std::function<void(Log&)>>> changes = {
       {"q2 and dq2 are in deg",
        [](Log& log) { scale_behind(log.q[1], kDegrees), scale_behind(log.dq[1], kDegrees); }},
@@ -51,7 +51,7 @@ TEST(QuestionChange, TellsWhatColumnsMeanFromARowOn) {
   }
 }
 
-TEST(QuestionChange, AFaultOfTheRobotIsNoChangeOfTheColumns) {
+TEST(ColumnChange, IsNotFoundInALogWithAFaultOfTheRobot) {
   for (const auto& [kind, joint, size] :
        {std::tuple{FaultKind::torque_loss, 1_joint, 0.6},
         std::tuple{FaultKind::friction_increase, 2_joint, 5.0},
@@ -67,14 +67,14 @@ TEST(QuestionChange, AFaultOfTheRobotIsNoChangeOfTheColumns) {
   }
 }
 
-TEST(QuestionChange, APositionThatJumpsIsNoVelocityInAnotherUnit) {
+TEST(ColumnChange, IsNotFoundAtAJumpOfAPosition) {
   Log log = simulate(known_rrp(), rrp_run(10.0), 74).log;
   for (int k = kChangedRow; k < log.rows(); ++k) log.q[1][k] += 1.0;
   const auto found = change_of(log);
   EXPECT_FALSE(found) << found->what;
 }
 
-TEST(QuestionChange, AHealthyLogDoesNotChange) {
+TEST(ColumnChange, IsNotFoundInAHealthyLog) {
   EXPECT_FALSE(change_of(simulate(known_rrp(), rrp_run(10.0), 72).log));
 }
 

@@ -103,7 +103,7 @@ TEST(ExplainCoarse, AMassOnAnInnerLinkIsNamedWithTheLinkAndItsSize) {
   EXPECT_NEAR(faults[0].claim.onset_s, kOnset_s, kPeriod_s);
 }
 
-TEST(ExplainCoarse, ATorqueThatIsLostDoesNotAlarmBeforeItIsLost) {
+TEST(ExplainCoarse, ATorqueLossRaisesNoAlarmBeforeItsOnset) {
   for (const double left : {0.2, 0.7}) {
     const auto faults = faults_of([&](Log& log) {
       for (std::size_t k = kFaulty; k < log.time.size(); ++k) log.tau[0][k] /= left;

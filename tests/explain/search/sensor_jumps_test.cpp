@@ -29,7 +29,7 @@ Log with_rests(Log log) {
   return log;
 }
 
-TEST(RepeatedCodes, OfAStuckEncoderAreAmongManyLongerRests) {
+TEST(RepeatedCodes, OfAStuckEncoderAreFoundAmongManyLongerRests) {
   Log log = with_rests(simulate_closed_form(of_day(0), run_of(31)));
   for (int k = 1301; k < 1360; ++k) log.q[1][k] = log.q[1][1300];  // in motion
   const std::vector<FaultSpan> codes = repeated_codes(fit_of(std::move(log)), 1);
@@ -39,7 +39,7 @@ TEST(RepeatedCodes, OfAStuckEncoderAreAmongManyLongerRests) {
   EXPECT_NEAR(stuck->end_s, 1360 * 0.004, 1e-9);
 }
 
-TEST(RepeatedCodes, OfAMovingJointAreNone) {
+TEST(RepeatedCodes, AreNotFoundAtAMovingJoint) {
   EXPECT_TRUE(repeated_codes(fit_of(simulate_closed_form(of_day(0), run_of(32))), 1).empty());
 }
 

@@ -24,7 +24,7 @@ std::vector<std::string> names_of(const ArrayTable& table) {
 
 using Names = std::vector<std::string>;
 
-TEST(ArrayTable, TheTimeVectorSaysHowManyRowsThereAre) {
+TEST(ArrayTable, TheTimeVectorDeterminesTheNumberOfRows) {
   const ArrayTable table = table_of(
       {array("image", {500, 600}), array("t", {1, 100}), array("q", {2, 100}), array("dt", {})}, "f");
   EXPECT_EQ(table.rows, 100);
@@ -51,15 +51,15 @@ TEST(ArrayTable, ASignalThatIsLeftOutIsAWarningAndAListOfConstantsANote) {
       << others->message;
 }
 
-TEST(ArrayTable, WithoutATimeTheLengthOfMostNumbersCounts) {
+TEST(ArrayTable, WithoutATimeTheLengthOfMostValuesIsTheNumberOfRows) {
   EXPECT_EQ(table_of({array("a", {7, 900}), array("b", {900}), array("c", {40})}, "f").rows, 900);
 }
 
-TEST(ArrayTable, ASampleTimeIsNoTimeVector) {
+TEST(ArrayTable, ASampleTimeIsNotATimeVector) {
   EXPECT_EQ(table_of({array("t", {1, 1}), array("q", {300, 2})}, "f").rows, 300);
 }
 
-TEST(ArrayTable, ASquareMatrixHasItsSamplesInRowsAndSaysSo) {
+TEST(ArrayTable, ASquareMatrixHasItsSamplesInRowsAndAnIssue) {
   const ArrayTable table = table_of({array("t", {5}), array("q", {5, 5})}, "f");
   EXPECT_FALSE(table.arrays[1].channel_major);
   EXPECT_TRUE(table.issues.find("array_square", "q"));
@@ -71,16 +71,16 @@ TEST(ArrayTable, TheLastPartOfAPathIsTheNameUnlessTwoShareIt) {
             (Names{"t", "q1", "q2", "a/x", "b/x"}));
 }
 
-TEST(ArrayTable, UnitsStandBehindNames) {
+TEST(ArrayTable, UnitsAreReadFromNames) {
   const ArrayTable table = table_of({array("time_ms", {9}), array("q [deg]", {9, 2})}, "f");
   EXPECT_EQ(table.columns[0].unit, "ms");
   EXPECT_EQ(table.columns[2].name, "q2");
   EXPECT_EQ(table.columns[2].unit, "deg");
 }
 
-TEST(ArrayTable, WithoutAnyArrayThereIsNoTable) { EXPECT_THROW(table_of({array("x", {})}, "f"), Error); }
+TEST(ArrayTable, AFileWithoutArraysIsRefused) { EXPECT_THROW(table_of({array("x", {})}, "f"), Error); }
 
-TEST(ArrayTable, AParquetFileIsRefusedWithTheWayToConvertIt) {
+TEST(ArrayTable, AParquetFileIsRefusedWithTheCommandThatConvertsIt) {
   const std::string refused = read_bytes(std::string("PAR1\x15\0\x15", 7)).refused;
   EXPECT_NE(refused.find("pandas.read_parquet"), std::string::npos) << refused;
 }

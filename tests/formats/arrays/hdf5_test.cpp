@@ -73,7 +73,7 @@ TEST_F(Hdf5, SegmentsChangeNoByte) {
   EXPECT_TRUE(read_file(folder_.file("cut.h5")) == whole);
 }
 
-TEST_F(Hdf5, AFlippedBitCostsAChunkAndIsTold) {
+TEST_F(Hdf5, AFlippedBitLosesOneChunkAndIsReported) {
   std::string bytes = written(numbered_log(5000, 3));
   const double value = 2500.1;
   const std::size_t place = bytes.find(std::string(reinterpret_cast<const char*>(&value), sizeof value));
@@ -90,7 +90,7 @@ TEST_F(Hdf5, AFlippedBitCostsAChunkAndIsTold) {
   EXPECT_EQ(read.issues.find("array_damaged", "q1")->first_row, 2049);
 }
 
-TEST_F(Hdf5, ALostTimeCostsItsRows) {
+TEST_F(Hdf5, ALostTimeLosesItsRows) {
   Log log = numbered_log(5000, 1);
   std::string bytes = written(log);
   const double value = log.time[4500];
@@ -101,7 +101,7 @@ TEST_F(Hdf5, ALostTimeCostsItsRows) {
   EXPECT_EQ(read.issues.rows_dropped(), 904);
 }
 
-TEST_F(Hdf5, ACutFileNeverLosesRowsInSilence) {
+TEST_F(Hdf5, ACutFileNeverLosesRowsWithoutAReport) {
   const Log log = numbered_log(3000, 2);
   const std::string bytes = written(log);
   int most = 0;
@@ -121,7 +121,7 @@ TEST_F(Hdf5, ACutFileNeverLosesRowsInSilence) {
 }
 
 /// Wherever the disk is full: at the first byte, in the tables of the file, in the values, at its end.
-TEST_F(Hdf5, OnAFullDiskASentenceSaysSoAndTheLibraryGoesOn) {
+TEST_F(Hdf5, AFullDiskIsReportedAndTheLibraryKeepsWorking) {
   const Log log = log_with_extra(9000);
   const auto whole = static_cast<rlim_t>(written(log).size());
   std::signal(SIGXFSZ, SIG_IGN);
@@ -170,7 +170,7 @@ void add_time_and_position(hid_t file) {
   add_vector(file, "q1", 300);
 }
 
-TEST_F(Hdf5, WhatIsALinkIntoAnotherFileIsNamed) {
+TEST_F(Hdf5, ALinkIntoAnotherFileIsNamed) {
   const std::string other =
       file_with(folder_.file("other.h5"), [](hid_t file) { add_vector(file, "tau1", 300); });
   const ReadArrays read = read_array_file(file_with(folder_.file("log.h5"), [&](hid_t file) {
@@ -184,7 +184,7 @@ TEST_F(Hdf5, WhatIsALinkIntoAnotherFileIsNamed) {
   EXPECT_NE(issue->message.find("link into another file"), std::string::npos) << issue->message;
 }
 
-TEST_F(Hdf5, ASoftLinkIsAnotherNameAndNamedOnlyWhenItLeadsToNothing) {
+TEST_F(Hdf5, ASoftLinkIsNamedOnlyIfItsTargetIsMissing) {
   const ReadArrays read = read_array_file(file_with(folder_.file("log.h5"), [](hid_t file) {
     add_time_and_position(file);
     H5Lcreate_soft("/q1", file, "position", H5P_DEFAULT, H5P_DEFAULT);
@@ -235,7 +235,7 @@ TEST_F(Hdf5, ConvertingALogThatLosesASignalEndsWithStatusOneAndNamesIt) {
   }
 }
 
-TEST_F(Hdf5, ItsSignatureIsFoundBehindABlockOfTheProgramThatWroteIt) {
+TEST_F(Hdf5, TheSignatureIsFoundAfterAUserBlock) {
   const std::string bytes = written(numbered_log(20, 1));
   EXPECT_EQ(read_bytes(std::string(512, 'x') + bytes).identity.format, "hdf5");
 }
@@ -290,13 +290,13 @@ TEST_F(Hdf5, FilesOfH5pyAreRead) {
   EXPECT_EQ(read_array_file(folder_.file("table.h5")).extra("mode")[5], 3.0);
 }
 
-TEST_F(Hdf5, AFilterThatIsNotReadIsNamedAsTheReason) {
+TEST_F(Hdf5, AnUnsupportedFilterIsNamedAsTheReason) {
   if (!run_python(folder_, kScript)) GTEST_SKIP() << "no Python with h5py";
   EXPECT_NE(read_array_file(folder_.file("lzf.h5")).refused.find("its compression is not gzip"),
             std::string::npos);
 }
 
-TEST_F(Hdf5, WhatWasNeverWrittenIsMissingAndNoZero) {
+TEST_F(Hdf5, ValuesThatWereNeverWrittenAreMissingAndNotZero) {
   if (!run_python(folder_, kScript)) GTEST_SKIP() << "no Python with h5py";
   const ReadArrays read = read_array_file(folder_.file("holes.h5"));
   ASSERT_EQ(read.log.rows(), 3000);

@@ -56,7 +56,7 @@ TEST_F(Matlab, SegmentsChangeNoByte) {
   EXPECT_TRUE(read_file(folder_.file("cut.mat")) == whole);
 }
 
-TEST_F(Matlab, ACutFileKeepsWhatIsThere) {
+TEST_F(Matlab, ACutFileIsReadUpToTheCut) {
   const Log log = numbered_log(60, 2);
   const std::string bytes = written(log);
   int most = 0;
@@ -70,7 +70,7 @@ TEST_F(Matlab, ACutFileKeepsWhatIsThere) {
   EXPECT_EQ(most, 60);
 }
 
-TEST_F(Matlab, APromisedSizeTakesNoMemory) {
+TEST_F(Matlab, AnImpossibleSizeTakesNoMemory) {
   std::string bytes = written(numbered_log(60, 2));
   const std::string rows("\x3c\0\0\0\x02\0\0\0", 8), many("\xff\xff\xff\x7f\x02\0\0\0", 8);
   for (std::size_t at; (at = bytes.find(rows)) != std::string::npos;) bytes.replace(at, many.size(), many);
@@ -106,7 +106,7 @@ TEST_F(Matlab, FilesOfScipyAreRead) {
     }
 }
 
-TEST_F(Matlab, ACutCompressedFileKeepsWhatIsThere) {
+TEST_F(Matlab, ACutCompressedFileIsReadUpToTheCut) {
   if (!run_python(folder_, kScript)) GTEST_SKIP() << "no Python with scipy";
   const std::string bytes = read_file(folder_.file("packed.mat"));
   int read_some = 0;
@@ -130,7 +130,7 @@ assert 'extra_a_b' in a and a['faultline'][0].startswith('{')
 )"));
 }
 
-TEST_F(Matlab, Version73IsReadByItsBlockBeforeHdf5) {
+TEST_F(Matlab, Version73IsRecognisedByTheBlockBeforeItsHdf5Data) {
   const char* script = R"(
 import numpy as np, h5py
 t = np.arange(50) * 0.01
@@ -151,7 +151,7 @@ with open('v73.mat', 'r+b') as f:
   EXPECT_EQ(read.log.q[1][30], 0.6);
 }
 
-TEST_F(Matlab, AFlippedBitOfACompressedFileIsTold) {
+TEST_F(Matlab, AFlippedBitOfACompressedFileIsReported) {
   const char* script = R"(
 import numpy as np
 from scipy.io import savemat

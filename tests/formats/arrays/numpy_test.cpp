@@ -85,7 +85,7 @@ TEST(Numpy, FieldsOfRecordsAreColumnsUnderTheirNames) {
   EXPECT_EQ(read.extra("mode"), (Values{0, 1, 2, 3}));
 }
 
-TEST(Numpy, ATimeOfADayGivesSeconds) {
+TEST(Numpy, ADateTimeIsReadInSeconds) {
   std::string data;
   for (const std::int64_t ns : {1500000000LL, 2500000000LL})
     data += elements<std::int64_t>({ns}) + elements<double>({7});
@@ -93,7 +93,7 @@ TEST(Numpy, ATimeOfADayGivesSeconds) {
   EXPECT_EQ(read.log.time, (Values{1.5, 2.5}));
 }
 
-TEST(Numpy, ACutArrayGivesItsWholeRowsAndTellsTheOthers) {
+TEST(Numpy, ACutArrayGivesItsCompleteRowsAndReportsTheOthers) {
   const std::string bytes = npy("'<f8'", "(3, 2)", elements<double>({0, 10, 1, 11, 2, 12}));
   const ReadArrays read = read_bytes(bytes.substr(0, bytes.size() - 9), kMapped);
   EXPECT_EQ(read.log.rows(), 2);
@@ -102,7 +102,7 @@ TEST(Numpy, ACutArrayGivesItsWholeRowsAndTellsTheOthers) {
   EXPECT_EQ(read.issues.rows_dropped(), 1);
 }
 
-TEST(Numpy, WhatAHeaderPromisesTakesNoMemory) {
+TEST(Numpy, AnImpossibleShapeTakesNoMemory) {
   for (const char* shape : {"(1000000000000000, 2)", "(4503599627370496, 2)", "(2, 1000000000000000)"}) {
     const ReadArrays read = read_bytes(npy("'<f8'", shape, elements<double>({0, 10, 1, 11})), kMapped);
     EXPECT_LE(read.log.rows(), 4) << shape;
@@ -110,7 +110,7 @@ TEST(Numpy, WhatAHeaderPromisesTakesNoMemory) {
   }
 }
 
-TEST(Numpy, AHeaderOfNonsenseIsRefused) {
+TEST(Numpy, AnInvalidHeaderIsRefused) {
   for (const char* shape : {"(9000000000000000000, 9000000000000000000)", "(-1, 2)", "((", "('a',)", "()"})
     EXPECT_NE(read_bytes(npy("'<f8'", shape, "12345678")).refused, "") << shape;
   for (const char* descr : {"'<f8", "'|O'", "[('t',)]", "'<c16'", "[[[[[[[[[[[[[[[[[[[[[[", "'x'", "12"})
@@ -170,7 +170,7 @@ TEST_F(Npz, SegmentsChangeNoByte) {
   EXPECT_EQ(read_file(folder_.file("cut.npz")), whole);
 }
 
-TEST_F(Npz, ACutFileIsReadFromItsFront) {
+TEST_F(Npz, ACutFileIsReadUpToTheCut) {
   const Log log = numbered_log(50, 2);
   const std::string bytes = written(log);
   int most = 0;
@@ -185,7 +185,7 @@ TEST_F(Npz, ACutFileIsReadFromItsFront) {
   EXPECT_EQ(most, 50);
 }
 
-TEST_F(Npz, AFlippedBitIsTold) {
+TEST_F(Npz, AFlippedBitIsReportedOrChangesNoValue) {
   const std::string bytes = written(numbered_log(50, 2));
   for (std::size_t place = 100; place < bytes.size(); place += 111) {
     std::string bad = bytes;

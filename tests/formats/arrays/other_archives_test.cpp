@@ -35,21 +35,21 @@ void expect_refused(const std::vector<std::string>& names, const std::string& wh
   EXPECT_EQ(refused.find("no array of numbers"), std::string::npos) << refused;
 }
 
-TEST(OtherArchives, AnExcelWorkbookIsToBeSavedAsCsv) {
+TEST(OtherArchives, AnExcelWorkbookIsRefusedWithTheAdviceToSaveItAsCsv) {
   expect_refused({"[Content_Types].xml", "xl/workbook.xml", "xl/worksheets/sheet1.xml"},
                  "is an Excel workbook; save");
 }
 
-TEST(OtherArchives, AnOpenDocumentSheetIsToBeSavedAsCsv) {
+TEST(OtherArchives, AnOpenDocumentSheetIsRefusedWithTheAdviceToSaveItAsCsv) {
   expect_refused({"mimetype", "content.xml"}, "is an OpenDocument file; save");
 }
 
-TEST(OtherArchives, AZipOfLogsIsToBeUnpackedAndNamesThem) {
+TEST(OtherArchives, AZipOfLogsIsRefusedWithTheNamesOfTheLogs) {
   expect_refused({"robot/", "robot/axes.csv", "log.ulg"},
                  "it holds robot/axes.csv, log.ulg. Unpack it first");
 }
 
-TEST(OtherArchives, AnEmptyZipIsCalledSo) { expect_refused({}, "is an empty ZIP archive"); }
+TEST(OtherArchives, AnEmptyZipIsRefusedAsEmpty) { expect_refused({}, "is an empty ZIP archive"); }
 
 }  // namespace
 }  // namespace faultline

@@ -40,7 +40,7 @@ TEST(MessageAccounting, TwoRecordingsInOneMcapFileAreBothRead) {
   EXPECT_EQ(reading.message_of("message_damaged"), "");
 }
 
-TEST(MessageAccounting, ARecordingBehindACutOneIsRead) {
+TEST(MessageAccounting, ARecordingAfterACutOneIsRead) {
   const std::string first = mcap_of(made::states(1, 0, 100, kArm));
   const std::string second = mcap_of(made::states(1, 100, 60, kArm));
   const made::Reading reading = made::read(first.substr(0, first.size() - 500) + second);
@@ -48,7 +48,7 @@ TEST(MessageAccounting, ARecordingBehindACutOneIsRead) {
   EXPECT_NE(reading.message_of("records_damaged"), "");
 }
 
-TEST(MessageAccounting, BytesBehindARecordingAreTold) {
+TEST(MessageAccounting, BytesAfterARecordingAreReported) {
   const made::Reading reading = made::read(mcap_of(made::states(1, 0, 100, kArm)) + "something else");
   expect_whole(reading, 100);
   EXPECT_NE(reading.message_of("trailing_bytes"), "");
@@ -85,7 +85,7 @@ TEST(MessageAccounting, JointsThatChangeTheirNamesForAWhileAreListed) {
   EXPECT_EQ(reading.log.rows(), 200);
 }
 
-TEST(MessageAccounting, NamesThatAppearBehindTheLearnedMessagesAreListed) {
+TEST(MessageAccounting, JointNamesThatAppearLateAreListed) {
   const made::Reading reading =
       made::read(mcap_of(made::states(1, 0, 4100, kArm) + made::states(1, 4100, 96, kRenamed)));
   expect_whole(reading, 4196);
@@ -93,7 +93,7 @@ TEST(MessageAccounting, NamesThatAppearBehindTheLearnedMessagesAreListed) {
   EXPECT_EQ(reading.issues.find("joints_appear_late")->rows_dropped, 96);
 }
 
-TEST(MessageAccounting, ATopicThatIsSucceededByAnotherIsListed) {
+TEST(MessageAccounting, MessagesOfATopicThatReplacesAnotherAreListed) {
   const made::Reading reading =
       made::read(made::mcap(made::topic(1, "/joint_states") + made::topic(2, "/arm/joint_states") +
                             made::states(1, 0, 178, kArm) + made::states(2, 178, 96, kArm)));
@@ -102,7 +102,7 @@ TEST(MessageAccounting, ATopicThatIsSucceededByAnotherIsListed) {
   EXPECT_NE(reading.message_of("joints_changed").find("/arm/joint_states"), std::string::npos);
 }
 
-TEST(MessageAccounting, AGripperAmongTheJointStatesIsNoLoss) {
+TEST(MessageAccounting, AGripperAmongTheJointStatesIsNotALoss) {
   std::string messages;
   for (int k = 0; k < 300; ++k) {
     messages += made::states(1, k, 1, kArm);
@@ -118,14 +118,14 @@ TEST(MessageAccounting, AGripperAmongTheJointStatesIsNoLoss) {
   EXPECT_EQ(reading.issues.find("messages_between_rows")->count, 30 * 4);
 }
 
-TEST(MessageAccounting, CommandsThatGoOnAreNoRows) {
+TEST(MessageAccounting, CommandsAfterTheLastStateAreNotRows) {
   const made::Reading reading =
       made::read(made::mcap(made::topic(1, "/joint_states") + made::topic(2, "/joint_commands") +
                             made::states(1, 0, 100, kArm) + made::states(2, 100, 50, kArm)));
   expect_whole(reading, 100);
 }
 
-TEST(MessageAccounting, TwoPublishersOnOneTopicAreTold) {
+TEST(MessageAccounting, TwoPublishersOnOneTopicAreReported) {
   std::string mcap, bag = made::connection(0, "/joint_states") + made::connection(1, "/joint_states");
   for (int k = 0; k < 100; ++k) {
     mcap += made::states(1, 2 * k, 1, kArm, 0.0) + made::states(1, 2 * k + 1, 1, kArm, 0.7);
@@ -139,7 +139,7 @@ TEST(MessageAccounting, TwoPublishersOnOneTopicAreTold) {
   }
 }
 
-TEST(MessageAccounting, AnEncoderBetweenTwoCodesIsNoSecondPublisher) {
+TEST(MessageAccounting, AnEncoderBetweenTwoCodesIsNotASecondPublisher) {
   std::string messages;
   for (int k = 0; k < 200; ++k) messages += made::states(1, k, 1, kArm, k % 2 ? 1e-4 : 0.0);
   EXPECT_EQ(made::read(mcap_of(messages)).message_of("publishers_mixed"), "");
@@ -177,7 +177,7 @@ TEST(MessageAccounting, HoldsForAnyMixtureOfPublishers) {
   }
 }
 
-TEST(MessageAccounting, ADatabaseBehindADatabaseIsTold) {
+TEST(MessageAccounting, ASecondDatabaseInOneFileIsReported) {
   const TemporaryFolder folder;
   const std::string path = folder.file("run.db3");
   sqlite3* db = nullptr;

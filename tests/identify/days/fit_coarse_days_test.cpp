@@ -35,7 +35,7 @@ OneStepModel fitted(const std::vector<double>& friction) {
   return fit_coarse_days(logs, robot, parameter_space(robot), TorqueTiming::held);
 }
 
-TEST(FitCoarseDays, FrictionThatDiffersByDayIsNoNoiseOfTheReadings) {
+TEST(FitCoarseDays, FrictionThatDiffersByDayIsNotNoiseOfTheMeasurements) {
   const OneStepModel alike = fitted({1.0, 1.0, 1.0, 1.0}), differ = fitted({0.8, 1.2, 0.9, 1.1});
   for (int i = 0; i < 6; ++i)
     EXPECT_LT(std::sqrt(differ.reading_variance[i]), 2.0 * std::sqrt(alike.reading_variance[i])) << i;

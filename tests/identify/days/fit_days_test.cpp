@@ -85,7 +85,7 @@ BalanceModel fitted(const OneJoint& joint, double period_s) {
   return fit_days(logs, parameter_space(robot), TorqueTiming::held).model;
 }
 
-TEST(FitDays, ALightRigidJointThatReversesHasNoSpring) {
+TEST(FitDays, ALightRigidJointThatReversesHasNoCompliance) {
   const BalanceModel model = fitted({.link_inertia = 0.004, .coulomb = 0.6}, 0.01);
   EXPECT_EQ(model.compliance(0), 0.0);
   EXPECT_EQ(model.setting.compliance[0], 0.0);
@@ -93,7 +93,7 @@ TEST(FitDays, ALightRigidJointThatReversesHasNoSpring) {
   EXPECT_NEAR(model.theta[model.layout().delay(0)], 0.0, 0.1);
 }
 
-TEST(FitDays, AGearThatGivesWayHasItsCompliance) {
+TEST(FitDays, AnElasticGearHasItsCompliance) {
   const OneJoint joint{.drive_inertia = 0.05};
   const BalanceModel model = fitted(joint, 0.002);
   EXPECT_NEAR(model.compliance(0) * kStiffness, 1.0, 0.2);
@@ -108,7 +108,7 @@ TEST(FitDays, ACoarseEncoderDoesNotMakeTheInertiaSmaller) {
   EXPECT_NEAR(model.theta[model.layout().coulomb(0)], 3.0, 0.1);
 }
 
-TEST(FitDays, LoadFrictionIsEstimatedWhereTheIdentificationHasIt) {
+TEST(FitDays, LoadFrictionIsEstimatedIfTheIdentificationHasIt) {
   std::vector<Log> days;
   for (int day = 0; day < 3; ++day) {
     testing::ClosedFormScara scara = testing::of_day(day);
@@ -123,7 +123,7 @@ TEST(FitDays, LoadFrictionIsEstimatedWhereTheIdentificationHasIt) {
   EXPECT_NEAR(model.theta[model.layout().load(2)], 0.04, 0.005);
 }
 
-TEST(FitDays, LoadFrictionThatWouldDriveIsLeftOut) {
+TEST(FitDays, NegativeLoadFrictionIsLeftOut) {
   std::vector<Log> days;
   for (int day = 0; day < 3; ++day) {
     testing::ClosedFormScara scara = testing::of_day(day);

@@ -57,7 +57,7 @@ Robot true_robot() {
   return robot;
 }
 
-TEST(SuggestMotion, CuresALogWithTooLittleMotion) {
+TEST(SuggestMotion, MakesAPoorlyExcitedRobotIdentifiable) {
   const Identification& poor = poorly_excited();
   ASSERT_EQ(poor.status, IdentificationStatus::poorly_excited) << poor.reason;
   const SuggestedMotion motion = suggest_motion(poor, {.candidates = 60});
@@ -74,7 +74,7 @@ TEST(SuggestMotion, CuresALogWithTooLittleMotion) {
   EXPECT_TRUE(excitation_lines(cured).empty()) << excitation_lines(cured)[0];
 }
 
-TEST(SuggestMotion, StaysWithinWhatTheLogsShowed) {
+TEST(SuggestMotion, StaysWithinTheRangesOfTheLogs) {
   const Identification& poor = poorly_excited();
   const SuggestedMotion motion = suggest_motion(poor, {.candidates = 20});
   const Motion reference = reference_motion(poor.robot, motion.simulation, motion.seed);
@@ -98,7 +98,7 @@ TEST(SuggestMotion, ThreadsDoNotChangeAByte) {
   EXPECT_EQ(text(1), text(2));
 }
 
-TEST(Excitation, NamesTheJointThatRestsAndWhatDoesNotShow) {
+TEST(Excitation, NamesTheRestingJointAndTheParameterThatItHides) {
   const Excitation& e = poorly_excited().excitation;
   EXPECT_EQ(e.joints[0].lacks, "");
   EXPECT_NE(e.joints[2].lacks.find("never moves"), std::string::npos);
@@ -108,7 +108,7 @@ TEST(Excitation, NamesTheJointThatRestsAndWhatDoesNotShow) {
   EXPECT_TRUE(std::isnan(m3->own));
 }
 
-TEST(Excitation, SaysWhenAJointMovesOneWayOnly) {
+TEST(Excitation, ReportsAJointThatMovesInOneDirectionOnly) {
   Log log = testing::simulate_closed_form({}, {});
   const Identification both = identify_log(log);
   for (const JointExcitation& joint : both.excitation.joints) EXPECT_EQ(joint.lacks, "");

@@ -34,7 +34,7 @@ TEST(DefiniteLeastSquares, AnIndefiniteTargetGivesTheNearestSemidefiniteMatrix) 
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(m).eigenvalues()[0], 0.0);
 }
 
-TEST(DefiniteLeastSquares, WhatTheSystemDoesNotTellStaysNominal) {
+TEST(DefiniteLeastSquares, UndeterminedEntriesStayNominal) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(1, 4);
   a(0, 3) = 1.0;  // tells the number behind the block alone
   const Eigen::VectorXd x =

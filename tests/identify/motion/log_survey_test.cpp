@@ -39,7 +39,7 @@ Log with_rows_written_twice(const Log& log) {
   return out;
 }
 
-TEST(LogSurvey, AHealthyLogRepeatsNothingAndMeasuresItsVelocity) {
+TEST(LogSurvey, AHealthyLogHasNoRepeatedRowsAndAMeasuredVelocity) {
   const LogSurvey s = survey(simulate_closed_form({}, {}));
   EXPECT_EQ(s.repeated_rows, RepeatedRows::none);
   EXPECT_EQ(s.dq_is_derived, (std::vector<char>{0, 0, 0}));
@@ -48,7 +48,7 @@ TEST(LogSurvey, AHealthyLogRepeatsNothingAndMeasuresItsVelocity) {
   EXPECT_TRUE(survey_issues(s).empty());
 }
 
-TEST(LogSurvey, StaleRowsAreToldFromRowsWrittenTwice) {
+TEST(LogSurvey, StaleRowsAreDistinguishedFromRowsWrittenTwice) {
   Log stale = simulate_closed_form({}, {});
   for (int k = 5; k < stale.rows(); k += 7) copy_row(stale, k, k - 1);
   EXPECT_EQ(survey(stale).repeated_rows, RepeatedRows::stale);
@@ -58,7 +58,7 @@ TEST(LogSurvey, StaleRowsAreToldFromRowsWrittenTwice) {
   EXPECT_NE(survey_issues(twice).find("repeated_rows"), nullptr);
 }
 
-TEST(LogSurvey, TimeOfRowsWrittenTwiceIsTakenOut) {
+TEST(LogSurvey, TimeOfRowsWrittenTwiceIsRemoved) {
   const Log log = simulate_closed_form({}, {});
   MemorySource source(with_rows_written_twice(log), "log");
   int rows = 0;
@@ -72,7 +72,7 @@ TEST(LogSurvey, TimeOfRowsWrittenTwiceIsTakenOut) {
   EXPECT_EQ(rows, log.rows());
 }
 
-TEST(LogSurvey, VelocityMadeOfPositionsIsNoMeasurement) {
+TEST(LogSurvey, VelocityComputedFromPositionsIsNotAMeasurement) {
   Log log = simulate_closed_form({}, {});
   for (int k = log.rows() - 1; k > 0; --k) log.dq[1][k] = (log.q[1][k] - log.q[1][k - 1]) / 0.005;
   const LogSurvey s = survey(log);
@@ -96,7 +96,7 @@ TEST(LogSurvey, VelocityInAnotherUnitIsNamedAndLeftOut) {
             std::string::npos);
 }
 
-TEST(RawStretch, LostRowsAreBridgedWithoutAMeasurementAndLongGapsCut) {
+TEST(RawStretch, LostRowsBecomeRowsWithoutMeasurementAndLongGapsSplitTheLog) {
   Log log = simulate_closed_form({}, {}), thinned = slice(log, 0, 0);
   for (int k = 0; k < log.rows(); ++k)
     if (k % 20 != 7 && (k < 300 || k >= 330)) append(thinned, slice(log, k, k + 1));

@@ -37,7 +37,7 @@ double velocity_rms_error(const JointMotion& m, const SmoothMotion& s) {
   return std::sqrt(sum / (m.rows() - 100));
 }
 
-TEST(MotionSmoother, NoiseOfPositionAndVelocityIsFoundWithinTenPercent) {
+TEST(MotionSmoother, NoiseOfPositionAndVelocityIsFoundWithinFifteenPercent) {
   const MotionNoise noise = fit_motion_noise(measured(2e-4, 0.05));
   EXPECT_NEAR(noise.q_std / 2e-4, 1.0, 0.15);
   EXPECT_NEAR(noise.dq_std / 0.05, 1.0, 0.15);
@@ -48,7 +48,7 @@ TEST(MotionSmoother, VelocityIsManyTimesBetterThanItsMeasurement) {
   EXPECT_LT(velocity_rms_error(m, smooth_motion(m, fit_motion_noise(m))), 0.05 / 8.0);
 }
 
-TEST(MotionSmoother, VelocityComesFromPositionAloneWhereNoneIsMeasured) {
+TEST(MotionSmoother, VelocityComesFromPositionAloneIfNoneIsMeasured) {
   const JointMotion m = measured(1e-5, 0.0);
   const MotionNoise noise = fit_motion_noise(m);
   EXPECT_EQ(noise.dq_std, 0.0);
@@ -61,7 +61,7 @@ TEST(MotionSmoother, WithoutNoiseTheMotionPassesUnchanged) {
   for (int k = 0; k < m.rows(); ++k) EXPECT_NEAR(s.q[k], m.q[k], 1e-6);
 }
 
-TEST(MotionSmoother, RowsThatDoNotCountMayHoldAnything) {
+TEST(MotionSmoother, ValuesOfExcludedRowsHaveNoEffect) {
   JointMotion m = measured(1e-5, 0.0), broken = m;
   for (int k = 100; k < 1900; k += 37)
     for (int i = 0; i < 3; ++i) broken.q[k + i] = 77.0, broken.q_off[k + i] = 1;

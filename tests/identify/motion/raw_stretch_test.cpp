@@ -34,7 +34,7 @@ Read read(const Log& log) {
   return out;
 }
 
-TEST(RawStretch, ALostRowAndARecordedEmptyOneAreTheSame) {
+TEST(RawStretch, ALostRowAndAnEmptyRowGiveTheSameStretches) {
   for (const double period_s : {0.002, 0.073}) {
     Log lost = slice(moving(period_s), 0, 90), empty = moving(period_s);
     append(lost, slice(moving(period_s), 91, 200));

@@ -33,7 +33,7 @@ TEST(TrailingCovariance, IsTheBlockOfTheInverse) {
   EXPECT_LT((covariance - expected).norm(), 1e-12 * expected.norm());
 }
 
-TEST(TrailingCovariance, ThereIsNoneWithoutFullRank) {
+TEST(TrailingCovariance, DoesNotExistWithoutFullRank) {
   std::vector<Eigen::MatrixXd> groups = arrow();
   for (Eigen::MatrixXd& group : groups) group.col(4) = group.col(3);
   Eigen::MatrixXd covariance;

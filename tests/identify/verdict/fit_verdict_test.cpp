@@ -31,12 +31,12 @@ Identification scara(const std::map<std::string, double>& values, double std) {
   return id;
 }
 
-TEST(InertiaVerdict, ARobotWithPositiveInertiaStaysAsItIs) {
+TEST(InertiaVerdict, ARobotWithPositiveInertiaIsAccepted) {
   const Identification id = scara({{"a", 1.6}, {"b", 0.5}, {"c", 0.7}, {"m3", 0.5}}, 0.01);
   EXPECT_FALSE(negative_inertia(id).has_value());
 }
 
-TEST(InertiaVerdict, ANegativeInertiaInTheRangeOfTheLogsIsNoRobot) {
+TEST(InertiaVerdict, ANegativeInertiaInTheRangeOfTheLogsIsRejected) {
   const Identification id = scara({{"a", -136.0}, {"b", 0.5}, {"c", 0.7}, {"m3", 0.5}}, 1.0);
   const std::optional<FitStatus> found = negative_inertia(id);
   ASSERT_TRUE(found.has_value());
@@ -45,7 +45,7 @@ TEST(InertiaVerdict, ANegativeInertiaInTheRangeOfTheLogsIsNoRobot) {
   EXPECT_NE(found->reason.find("revolutions"), std::string::npos) << found->reason;
 }
 
-TEST(InertiaVerdict, OneThatIsSurelyNegativeWhereTheJointsCouldTurnToIsNoneEither) {
+TEST(InertiaVerdict, ASurelyNegativeInertiaBeyondThePositionsOfTheLogsIsRejected) {
   const std::map<std::string, double> turns = {{"a", 10.0}, {"b", 8.0}, {"c", 11.0}, {"m3", 0.5}};
   const std::optional<FitStatus> sure = negative_inertia(scara(turns, 0.1));
   ASSERT_TRUE(sure.has_value());

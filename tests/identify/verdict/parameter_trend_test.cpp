@@ -72,7 +72,7 @@ ParameterTrend drawn(double slope, double jump, Random& random) {
   return t;
 }
 
-TEST(ParameterTrend, ChanceAloneFlagsAsOftenAsItSays) {
+TEST(ParameterTrend, ChanceAloneRaisesLessThanTwiceTheStatedRateOfFlags) {
   Random random(4);
   int flagged = 0;
   constexpr int kSeries = 2000;
@@ -84,7 +84,7 @@ TEST(ParameterTrend, ChanceAloneFlagsAsOftenAsItSays) {
   EXPECT_LT(flagged, 2.0 * kFalseFlags * kSeries);
 }
 
-TEST(ParameterTrend, AJumpDiffersAndDoesNotDrift) {
+TEST(ParameterTrend, AJumpIsADifferenceButNotADrift) {
   Random random(5);
   const std::vector<ParameterTrend> drawn_trends = {drawn(0.0, 1.5, random), drawn(0.2, 0.0, random)};
   const std::vector<ParameterTrend> trends = tested_trends(drawn_trends);

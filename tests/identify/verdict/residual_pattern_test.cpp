@@ -32,7 +32,7 @@ JointFit swinging(const std::function<double(double, double, double)>& left, dou
   return fit;
 }
 
-TEST(ResidualPattern, WhiteNoiseRepeatsWithNothing) {
+TEST(ResidualPattern, WhiteNoiseHasNoPattern) {
   const ResidualPattern p = residual_pattern(swinging([](double, double, double) { return 0.0; }, 1.0));
   EXPECT_LT(p.position, 0.01);
   EXPECT_LT(p.speed, 0.01);
@@ -40,7 +40,7 @@ TEST(ResidualPattern, WhiteNoiseRepeatsWithNothing) {
   EXPECT_LT(p.previous, 0.01);
 }
 
-TEST(ResidualPattern, ARippleOfThePositionIsToldFromOneOfTheSpeed) {
+TEST(ResidualPattern, ARippleOfThePositionIsDistinguishedFromAPatternOfTheSpeed) {
   const ResidualPattern ripple =
       residual_pattern(swinging([](double q, double, double) { return std::sin(6.0 * q); }, 0.2));
   EXPECT_GT(ripple.position, 0.7);
@@ -51,7 +51,7 @@ TEST(ResidualPattern, ARippleOfThePositionIsToldFromOneOfTheSpeed) {
   EXPECT_LT(stribeck.position, stribeck.speed);
 }
 
-TEST(ResidualPattern, AnOscillationStandsOutOfTheSpectrumWithItsSize) {
+TEST(ResidualPattern, AnOscillationIsAPeakOfTheSpectrumWithItsSize) {
   const ResidualPattern p =
       residual_pattern(swinging([](double, double, double t) { return std::sin(6.2832 * 5.0 * t); }, 0.1));
   const auto peak = std::max_element(p.spectrum.begin(), p.spectrum.end());
@@ -61,7 +61,7 @@ TEST(ResidualPattern, AnOscillationStandsOutOfTheSpectrumWithItsSize) {
   EXPECT_NEAR(std::sqrt(power), std::sqrt(0.5 + 0.01), 0.05);
 }
 
-TEST(ResidualPattern, FewWindowsTellNothing) {
+TEST(ResidualPattern, TooFewWindowsGiveNoPattern) {
   JointFit fit = swinging([](double, double, double) { return 0.0; }, 1.0);
   fit.moving.assign(fit.moving.size(), false);
   EXPECT_TRUE(std::isnan(residual_pattern(fit).position));

@@ -32,7 +32,7 @@ std::string unit_of(const std::vector<double>& time, const std::vector<NamedValu
   return counted_time(time, columns).unit;
 }
 
-TEST(CountedTime, AMicrosecondCounterSinceDaysIsNoTimeSince1970) {
+TEST(CountedTime, AMicrosecondCounterOfSomeDaysIsNotATimeSince1970) {
   constexpr double kFiveDays_us = 5 * 86400e6;
   EXPECT_EQ(unit_of(counts(kFiveDays_us, 1000)), "us");
   EXPECT_NE(counted_time(counts(kFiveDays_us, 1000), {}).why, "");
@@ -41,7 +41,7 @@ TEST(CountedTime, AMicrosecondCounterSinceDaysIsNoTimeSince1970) {
   EXPECT_EQ(unit_of(counts(5 * 86400e9, 1e6)), "ns");
 }
 
-TEST(CountedTime, TheMotionTellsWhatTheStepsDoNot) {
+TEST(CountedTime, TheMotionDeterminesTheUnitIfTheStepsDoNot) {
   const auto time = counts(0, 100);  // 10 Hz of ms, 10 kHz of us
   EXPECT_EQ(unit_of(time, joint_of(time, 1e-6)), "us");
   EXPECT_EQ(unit_of(time, joint_of(time, 1e-3)), "ms");
@@ -60,7 +60,7 @@ TEST(CountedTime, SecondsStaySeconds) {
   EXPECT_EQ(unit_of(counts(0.5, 0.001)), "");
 }
 
-TEST(CountedTime, OfATextIsSaidWithTheUnit) {
+TEST(CountedTime, OfATextIsReportedWithTheAssumedUnit) {
   std::string text = "timestamp,q1\n";
   for (int k = 0; k < 50; ++k) text += std::to_string(432'000'000'000 + 1000 * k) + ",0.5\n";
   const ReadLog read = read_csv(text);

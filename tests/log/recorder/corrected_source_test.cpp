@@ -78,7 +78,7 @@ JointSignals comparable(JointSignals signals) {
 
 double turned(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
-TEST(CorrectedSource, AHealthyLogPassesAsItIs) {
+TEST(CorrectedSource, AHealthyLogPassesUnchanged) {
   const Log log = moving();
   const Mended out = mend(log);
   EXPECT_EQ(out.log.q, log.q);
@@ -86,7 +86,7 @@ TEST(CorrectedSource, AHealthyLogPassesAsItIs) {
   EXPECT_TRUE(out.issues.empty());
 }
 
-TEST(CorrectedSource, AnAngleKeptWithinOneTurnGoesOnAndTheIssueNamesTheRow) {
+TEST(CorrectedSource, AWrappedAngleIsUnwrappedAndTheIssueNamesTheRow) {
   const Log whole = moving();
   Log log = whole;
   for (double& q : log.q[0]) q = turned(q);
@@ -100,7 +100,7 @@ TEST(CorrectedSource, AnAngleKeptWithinOneTurnGoesOnAndTheIssueNamesTheRow) {
   EXPECT_EQ(issue->count, 2);
 }
 
-TEST(CorrectedSource, AnAngleFromZeroToOneTurnGoesOnWithoutVelocitiesToo) {
+TEST(CorrectedSource, AnAngleFromZeroToOneTurnIsUnwrappedAlsoWithoutVelocities) {
   const Log whole = moving();
   Log log = whole;
   log.dq.clear();
@@ -109,20 +109,20 @@ TEST(CorrectedSource, AnAngleFromZeroToOneTurnGoesOnWithoutVelocitiesToo) {
   for (int i = 0; i < log.rows(); ++i) ASSERT_NEAR(out.log.q[0][i], whole.q[0][i], 1e-9);
 }
 
-TEST(CorrectedSource, RowsFarApartWithoutVelocitiesSayNothingOfTurns) {
+TEST(CorrectedSource, SparseRowsWithoutVelocitiesAreNotUnwrapped) {
   Log log;
   log.time = {0, 1, 2, 3};
   log.q = {{1.5, -2.9, 2.9, -2.0}};
   EXPECT_EQ(mend(log).log.q, log.q);
 }
 
-TEST(CorrectedSource, AJointThatSlidesHasNoTurns) {
+TEST(CorrectedSource, ASlidingJointIsNotUnwrapped) {
   Log log = moving();
   for (double& q : log.q[0]) q = turned(q);
   EXPECT_EQ(mend(log, 4096, {true, false, false}).log.q, log.q);
 }
 
-TEST(CorrectedSource, RowsInWhichAllJointsKeepTheirDigitsInMotionLoseTheirValues) {
+TEST(CorrectedSource, RowsInWhichAllJointsFreezeInMotionLoseTheirValues) {
   Log log = moving();
   change_measured(log, [](std::vector<double>& v) { std::fill_n(v.begin() + 300, 60, v[299]); });
   Mended out = mend(log);
@@ -135,7 +135,7 @@ TEST(CorrectedSource, RowsInWhichAllJointsKeepTheirDigitsInMotionLoseTheirValues
   EXPECT_EQ(out.rows_read, out.log.rows() + out.issues.rows_dropped());
 }
 
-TEST(CorrectedSource, AStuckEncoderOfOneJointIsNoStoppedRecorder) {
+TEST(CorrectedSource, AStuckEncoderOfOneJointIsNotAStoppedRecorder) {
   Log log = moving();
   std::fill_n(log.q[1].begin() + 300, 200, log.q[1][299]);
   std::fill_n(log.dq[1].begin() + 300, 200, log.dq[1][299]);
@@ -144,7 +144,7 @@ TEST(CorrectedSource, AStuckEncoderOfOneJointIsNoStoppedRecorder) {
   EXPECT_TRUE(out.issues.empty());
 }
 
-TEST(CorrectedSource, ARobotAtRestIsNoStoppedRecorder) {
+TEST(CorrectedSource, ARobotAtRestIsNotAStoppedRecorder) {
   Log log = moving();
   for (std::vector<double>& joint : log.q) std::fill(joint.begin() + 300, joint.end(), joint[299]);
   for (std::vector<double>& joint : log.dq) std::fill(joint.begin() + 300, joint.end(), 0.0);
@@ -184,7 +184,7 @@ TEST(CorrectedSource, ARobotThatComesToRestAtZeroIsKept) {
   EXPECT_EQ(mend(log).log.rows(), log.rows());
 }
 
-TEST(CorrectedSource, RowsCutOutUnderClosedStampsBecomeAGap) {
+TEST(CorrectedSource, RowsCutOutUnderClosedTimeStampsBecomeAGap) {
   Log log = moving();
   change_measured(log, [](std::vector<double>& v) { v.erase(v.begin() + 300, v.begin() + 500); });
   log.time.resize(600);
@@ -196,7 +196,7 @@ TEST(CorrectedSource, RowsCutOutUnderClosedStampsBecomeAGap) {
   EXPECT_EQ(out.rows_read, out.log.rows() + out.issues.rows_dropped());
 }
 
-TEST(CorrectedSource, ABlockThatStandsTwiceInTheLogIsTakenOnce) {
+TEST(CorrectedSource, ABlockThatIsTwiceInTheLogIsUsedOnce) {
   Log log = moving();
   change_measured(log, [](std::vector<double>& v) {
     const std::vector<double> block(v.begin() + 300, v.begin() + 500);
@@ -212,7 +212,7 @@ TEST(CorrectedSource, ABlockThatStandsTwiceInTheLogIsTakenOnce) {
   EXPECT_EQ(issue->rows_dropped, 200);
 }
 
-TEST(CorrectedSource, APositionThatJumpsAtOneJointStays) {
+TEST(CorrectedSource, AJumpOfThePositionOfOneJointIsKept) {
   Log log = moving();
   for (int i = 300; i < log.rows(); ++i) log.q[1][i] += 0.3;
   const Mended out = mend(log);
@@ -220,7 +220,7 @@ TEST(CorrectedSource, APositionThatJumpsAtOneJointStays) {
   EXPECT_TRUE(out.issues.empty());
 }
 
-TEST(CorrectedSource, TwoJointsThatGoOnAsEachOtherAreNamedWithTheRow) {
+TEST(CorrectedSource, TwoJointsThatSwapTheirSignalsAreNamedWithTheRow) {
   Log log = moving();
   for (JointSignals* signals : {&log.q, &log.dq, &log.tau})
     std::swap_ranges((*signals)[0].begin() + 300, (*signals)[0].end(), (*signals)[2].begin() + 300);
@@ -233,7 +233,7 @@ TEST(CorrectedSource, TwoJointsThatGoOnAsEachOtherAreNamedWithTheRow) {
   EXPECT_EQ(out.log.rows(), log.rows());
 }
 
-TEST(CorrectedSource, WhereSegmentsEndChangesNothing) {
+TEST(CorrectedSource, BordersOfSegmentsChangeNothing) {
   Log log = moving();
   for (double& q : log.q[0]) q = turned(q);
   change_measured(log, [](std::vector<double>& v) {

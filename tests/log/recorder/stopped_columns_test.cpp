@@ -59,7 +59,7 @@ int missing(const std::vector<double>& values) {
       std::count_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }));
 }
 
-TEST(StoppedColumns, AWholeLogKeepsItsValues) {
+TEST(StoppedColumns, ACompleteLogKeepsItsValues) {
   const Log log = moving(0.01);
   const Read out = read(log);
   EXPECT_EQ(out.log.q, log.q);
@@ -67,7 +67,7 @@ TEST(StoppedColumns, AWholeLogKeepsItsValues) {
   EXPECT_TRUE(out.issues.empty());
 }
 
-TEST(StoppedColumns, PositionsThatStandStillWhileVelocitiesGoOnAreMissing) {
+TEST(StoppedColumns, PositionsThatFreezeWhileVelocitiesChangeAreMissing) {
   for (const double step_s : {0.01, 0.073})
     for (const int end : {kRows, kFrom + 200}) {
       Log log = moving(step_s);
@@ -81,7 +81,7 @@ TEST(StoppedColumns, PositionsThatStandStillWhileVelocitiesGoOnAreMissing) {
     }
 }
 
-TEST(StoppedColumns, PositionsAndVelocitiesThatStandStillTogetherAreMissing) {
+TEST(StoppedColumns, PositionsAndVelocitiesThatFreezeTogetherAreMissing) {
   Log log = moving(0.01);
   freeze(log.q);
   freeze(log.dq);
@@ -99,7 +99,7 @@ TEST(StoppedColumns, VelocitiesThatAreZeroWhilePositionsMoveAreMissing) {
   ASSERT_NE(out.issues.find("velocities_stopped"), nullptr);
 }
 
-TEST(StoppedColumns, TorquesThatAreZeroOrStandStillWhileTheJointsSpeedUpAreMissing) {
+TEST(StoppedColumns, TorquesThatAreZeroOrFreezeWhileTheJointsAccelerateAreMissing) {
   for (const bool is_zero : {false, true}) {
     Log log = moving(0.01);
     if (is_zero)
@@ -113,7 +113,7 @@ TEST(StoppedColumns, TorquesThatAreZeroOrStandStillWhileTheJointsSpeedUpAreMissi
   }
 }
 
-TEST(StoppedColumns, ARobotAtRestIsNoMistake) {
+TEST(StoppedColumns, ARobotAtRestKeepsItsValues) {
   Log log = moving(0.01);
   freeze(log.q);
   zero(log.dq);
@@ -125,14 +125,14 @@ TEST(StoppedColumns, ARobotAtRestIsNoMistake) {
   EXPECT_TRUE(out.issues.empty());
 }
 
-TEST(StoppedColumns, TheSensorOfOneJointMayBeFaulty) {
+TEST(StoppedColumns, AFaultySensorOfOneJointIsNotAStoppedColumn) {
   Log log = moving(0.01);
   std::fill(log.q[1].begin() + kFrom, log.q[1].end(), log.q[1][kFrom - 1]);
   std::fill(log.tau[0].begin() + kFrom, log.tau[0].end(), 0.0);
   EXPECT_TRUE(read(log).issues.empty());
 }
 
-TEST(StoppedColumns, TorquesThatNeverChangeAreAnotherMatter) {
+TEST(StoppedColumns, TorquesThatNeverChangeAreNotReported) {
   Log log = moving(0.01);
   for (std::vector<double>& joint : log.tau) std::fill(joint.begin(), joint.end(), 0.0);
   EXPECT_TRUE(read(log).issues.empty());

@@ -39,7 +39,7 @@ Eigen::Vector3d row(const JointSignals& signals, int i) {
   return {signals[0][i], signals[1][i], signals[2][i]};
 }
 
-TEST(CoupledSource, MotionIsThatOfTheMatrix) {
+TEST(CoupledSource, MotionOfTheJointsIsTheMatrixTimesThatOfTheDrives) {
   const Log drives = random_log(3, 20), joints = joints_of(drives, wrist());
   for (int i = 0; i < 20; ++i) {
     EXPECT_LT((row(joints.q, i) - wrist() * row(drives.q, i)).norm(), 1e-14);
@@ -61,7 +61,7 @@ TEST(CoupledSource, SegmentsChangeNothing) {
   EXPECT_EQ(joints_of(drives, wrist(), 3).tau, joints_of(drives, wrist()).tau);
 }
 
-TEST(CoupledSource, UncoupledIsWhatTheDrivesRecorded) {
+TEST(CoupledSource, UncoupledUndoesTheCoupling) {
   const Log drives = random_log(3, 20), again = uncoupled(joints_of(drives, wrist()), wrist());
   for (int i = 0; i < 20; ++i) {
     EXPECT_LT((row(again.q, i) - row(drives.q, i)).norm(), 1e-14);
@@ -80,7 +80,7 @@ TEST(CoupledSource, AMissingValueReachesTheJointsThatDependOnIt) {
   EXPECT_FALSE(std::isnan(joints.q[1][1]));
 }
 
-TEST(CoupledSource, WithoutAMatrixTheLogPassesAsItIs) {
+TEST(CoupledSource, WithoutAMatrixTheLogPassesUnchanged) {
   const Log drives = random_log(3, 5);
   EXPECT_EQ(joints_of(drives, {}).q, drives.q);
   EXPECT_EQ(uncoupled(drives, {}).tau, drives.tau);

@@ -31,7 +31,7 @@ Log delayed(const std::vector<double>& delay_s, int segment_rows) {
   return read_all(late);
 }
 
-TEST(DelayedTorqueSource, TorqueIsThatOfTheDelayBefore) {
+TEST(DelayedTorqueSource, TorqueIsThatOfATimeEarlierByTheDelay) {
   for (const int segment_rows : {1, 7, 500}) {
     const Log log = delayed({0.006, -0.003}, segment_rows);
     ASSERT_EQ(log.rows(), 500);
@@ -43,7 +43,7 @@ TEST(DelayedTorqueSource, TorqueIsThatOfTheDelayBefore) {
   }
 }
 
-TEST(DelayedTorqueSource, WholeSamplesAreHandedOnWithinRounding) {
+TEST(DelayedTorqueSource, ADelayOfWholeSamplesGivesTheRecordedValues) {
   const Log log = delayed({0.004, 0.0}, 13), raw = ramp(500);
   for (int k = 2; k < 500; ++k) EXPECT_NEAR(log.tau[0][k], raw.tau[0][k - 2], 1e-13);
   EXPECT_EQ(log.tau[1], raw.tau[1]);

@@ -33,7 +33,7 @@ Log filled(const Log& log, int segment_rows = 4096) {
   return all;
 }
 
-TEST(EmptyRowsSource, ALostRowBecomesAnEmptyOneInItsPlaceWhateverTheSegments) {
+TEST(EmptyRowsSource, ALostRowBecomesAnEmptyRowForAnySegments) {
   const Log log = with_lost_rows(200, [](int k) { return k == 3 || k == 70 || k == 150 || k == 151; });
   for (const int segment_rows : {1, 7, 64, 70, 4096}) {
     const Log all = filled(log, segment_rows);
@@ -53,14 +53,14 @@ TEST(EmptyRowsSource, ALongGapStaysAGap) {
   EXPECT_EQ(filled(log).rows(), log.rows());
 }
 
-TEST(EmptyRowsSource, WhereSomeStampsAreLateTwoPeriodsAreNoLostRow) {
+TEST(EmptyRowsSource, TwoPeriodsAreNotALostRowIfSomeTimeStampsAreLate) {
   Log log = with_lost_rows(1000, [](int k) { return k % 100 == 99; });
   for (int k = 10; k < log.rows(); k += 40)
     log.time[k] += 0.5 * 0.073;  // as whole milliseconds make of 500 Hz
   EXPECT_EQ(filled(log).rows(), log.rows());
 }
 
-TEST(EmptyRowsSource, OnAClockThatJittersNoRowIsKnownToBeLost) {
+TEST(EmptyRowsSource, NoLostRowIsFilledIfTheClockJitters) {
   const Log log = with_lost_rows(
       200, [](int k) { return k == 100; }, 0.02);
   EXPECT_EQ(filled(log).rows(), log.rows());

@@ -28,7 +28,7 @@ std::vector<double> told(LogSource& source) {
   return rows;
 }
 
-TEST(SelectedRowsSource, TellsTheRowsOfItsRangesWhateverTheSegments) {
+TEST(SelectedRowsSource, ReturnsTheRowsOfItsRangesForAnySegments) {
   const std::vector<double> expected = {3, 4, 5, 9, 10, 11, 12, 29};
   for (const int segment_rows : {1, 2, 5, 7, 30}) {
     MemorySource source(counting(30), "counting", segment_rows);
@@ -39,13 +39,13 @@ TEST(SelectedRowsSource, TellsTheRowsOfItsRangesWhateverTheSegments) {
   }
 }
 
-TEST(SelectedRowsSource, RangesThatTouchAreToldWithoutAGap) {
+TEST(SelectedRowsSource, AdjacentRangesGiveRowsWithoutAGap) {
   MemorySource source(counting(10), "counting", 4);
   SelectedRowsSource selected(source, {{{0, 3}, {3, 10}}});
   EXPECT_EQ(told(selected).size(), 10u);
 }
 
-TEST(SelectedRowsSource, NoRangesAreNoRows) {
+TEST(SelectedRowsSource, ReturnsNoRowsWithoutRanges) {
   MemorySource source(counting(10), "counting", 4);
   SelectedRowsSource none(source, {{}}), beyond(source, {{{10, 20}}});
   EXPECT_TRUE(told(none).empty());

@@ -42,14 +42,14 @@ void expect_refused(const TwinOptions& options, const std::string& key) {
   }
 }
 
-TEST(TwinOptions, TheDefaultsAreTheCataloguesAndValid) {
+TEST(TwinOptions, TheDefaultsAreValidAndEqualTheCatalogue) {
   TwinOptions options;
   EXPECT_NO_THROW(options.check());
   EXPECT_EQ(fault_of(options, FaultKind::torque_loss).size[0], describe(FaultKind::torque_loss).size[0].twin);
   EXPECT_EQ(fault_of(options, FaultKind::collision).length_s, describe(FaultKind::collision).twin_length_s);
 }
 
-TEST(TwinOptions, WhatCannotBeDrawnIsRefusedByName) {
+TEST(TwinOptions, ImpossibleOptionsAreRefusedByName) {
   TwinOptions options;
   options.pd_share = 1.5;
   expect_refused(options, "pd_share");
@@ -92,7 +92,7 @@ TEST(TwinText, ShowsTheSizesOfEveryKindThatIsSimulated) {
   EXPECT_NE(text.find("+-0.003 to 0.04, log-uniform"), std::string::npos) << text;
 }
 
-TEST(TwinFaults, SizesAreSharesOfWhatIsUsualForTheJoint) {
+TEST(TwinFaults, SizesAreSharesOfTheUsualValuesOfTheJoint) {
   TwinOptions options;
   fault_of(options, FaultKind::sensor_bias).size[0] = {0.5, 0.5};
   fault_of(options, FaultKind::friction_increase).size = {{{2.0, 2.0}, {3.0, 3.0}}};

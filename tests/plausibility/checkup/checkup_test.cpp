@@ -122,7 +122,7 @@ TEST(Checkup, TheStepOfAQuantisedChannelIsFound) {
   EXPECT_NEAR(*course(found, Quantity::q).step, 0.0125, 1e-6);
 }
 
-TEST(Checkup, AVelocityThatIsDeadIsToldByItsRatioAndAJointAtRestIsNot) {
+TEST(Checkup, AVelocityThatStaysZeroIsFoundButAJointAtRestIsNot) {
   Log log = healthy_log();
   log.dq[0].assign(log.rows(), 0.0);
   EXPECT_EQ(checked(log).checkup.joints[0].velocity.rms_ratio, 0.0);
@@ -132,7 +132,7 @@ TEST(Checkup, AVelocityThatIsDeadIsToldByItsRatioAndAJointAtRestIsNot) {
   EXPECT_TRUE(std::isnan(checked(log).checkup.joints[0].velocity.rms_ratio));
 }
 
-TEST(Checkup, AVelocityComputedFromThePositionIsTold) {
+TEST(Checkup, AVelocityComputedFromThePositionIsRecognised) {
   Log log = healthy_log();
   for (int i = 1; i < log.rows(); ++i) log.dq[0][i] = (log.q[0][i] - log.q[0][i - 1]) / kPeriod_s;
   const CheckedLog found = checked(log);
@@ -164,7 +164,7 @@ TEST(Checkup, ATorqueFarTooLateIsFound) {
   EXPECT_NE(found.issues.find("torque_delayed", "tau1"), nullptr);
 }
 
-TEST(Checkup, AClockThatChangesForGoodIsFoundWithItsPlace) {
+TEST(Checkup, APermanentChangeOfTheClockIsFoundWithItsPlace) {
   Log log = healthy_log();
   for (int i = 2000; i < log.rows(); ++i) log.time[i] += 0.5 * kPeriod_s * (i - 1999);
   const CheckedLog found = checked(log);
@@ -174,7 +174,7 @@ TEST(Checkup, AClockThatChangesForGoodIsFoundWithItsPlace) {
   EXPECT_NE(found.issues.find("clock_change", "t"), nullptr);
 }
 
-TEST(Checkup, GapsAndJitterAreNoChangeOfTheClock) {
+TEST(Checkup, GapsAndJitterAreNotAChangeOfTheClock) {
   Log log = healthy_log();
   for (int i = 2000; i < log.rows(); ++i) log.time[i] += 3.0;
   for (int i = 0; i < log.rows(); i += 3) log.time[i] += 0.4 * kPeriod_s;
@@ -196,7 +196,7 @@ TEST(Checkup, RowsOfASlowerSourceAreFoundAndThoseOfARobotAtRestAreNot) {
   EXPECT_EQ(rest.issues.find("rows_repeated"), nullptr);
 }
 
-TEST(Checkup, PositionsThatAreReadLessOftenThanTorquesAreFoundAndCoarseEncodersAreNot) {
+TEST(Checkup, PositionsReadLessOftenThanTorquesAreFoundButCoarseEncodersAreNot) {
   Log two = healthy_log();
   for (JointSignals* signals : {&two.q, &two.dq, &two.tau}) {
     signals->push_back((*signals)[0]);
@@ -216,7 +216,7 @@ TEST(Checkup, PositionsThatAreReadLessOftenThanTorquesAreFoundAndCoarseEncodersA
   EXPECT_EQ(checked(two).issues.find("positions_repeated"), nullptr);
 }
 
-TEST(Checkup, AVelocityFarFromThePositionsChangeIsMentioned) {
+TEST(Checkup, AVelocityFarFromTheChangeOfThePositionIsReported) {
   Log log = healthy_log();
   EXPECT_EQ(checked(log).issues.find("velocity_off", "dq1"), nullptr);
   for (double& dq : log.dq[0]) dq *= 0.78;
@@ -226,13 +226,13 @@ TEST(Checkup, AVelocityFarFromThePositionsChangeIsMentioned) {
   EXPECT_NE(issue->message.find("times as large"), std::string::npos);
 }
 
-TEST(Checkup, StampsFarTooCloseAreSuspicious) {
+TEST(Checkup, TimeStampsThatAreFarTooCloseAreReported) {
   Log log = healthy_log();
   for (double& t : log.time) t *= 1e-6;
   EXPECT_NE(checked(log).issues.find("unit_implausible", "t"), nullptr);
 }
 
-TEST(Checkup, CompletenessCountsTheRowsThatAGapSwallowed) {
+TEST(Checkup, CompletenessCountsTheRowsThatAreMissingInAGap) {
   Log log = healthy_log();
   for (int i = 3000; i < log.rows(); ++i) log.time[i] += 1000 * kPeriod_s;
   QualityState state;

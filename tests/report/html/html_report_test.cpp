@@ -21,7 +21,7 @@ TEST(ReportFormats, EachHasItsOwnName) {
   EXPECT_TRUE(names.count("json") && names.count("html"));
 }
 
-TEST(ReportFormats, OnlyThoseOfASecondPassAskForDetails) {
+TEST(ReportFormats, OnlyFormatsOfASecondPassRequestDetails) {
   const Diagnosis d = faulty_diagnosis();
   for (const ReportFormat& format : report_formats()) {
     int asked = 0;
@@ -34,7 +34,7 @@ TEST(ReportFormats, OnlyThoseOfASecondPassAskForDetails) {
   }
 }
 
-TEST(ReportFormats, RenderWhatTheirNamesSay) {
+TEST(ReportFormats, RenderTheFormatOfTheirName) {
   const Diagnosis d = faulty_diagnosis();
   const ReportSource source{d, [&] { return example_details(d); }};
   EXPECT_EQ(report_format("json").render(source), render_json(d));

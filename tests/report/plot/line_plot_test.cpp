@@ -23,7 +23,7 @@ std::size_t count(const std::string& text, const std::string& word) {
   return found;
 }
 
-TEST(LinePlot, ticks_stand_at_round_values_within_the_axis) {
+TEST(LinePlot, TicksAreAtRoundValuesWithinTheAxis) {
   const PlotAxis axis{.low = -0.31, .high = 1.02};
   const auto ticks = ticks_of(axis, 5);
   ASSERT_EQ(ticks.size(), 3u);
@@ -32,7 +32,7 @@ TEST(LinePlot, ticks_stand_at_round_values_within_the_axis) {
   EXPECT_EQ(ticks[2].text, "1.0");
 }
 
-TEST(LinePlot, logarithmic_axis_spans_whole_powers_of_ten_of_positive_values) {
+TEST(LinePlot, ALogarithmicAxisSpansWholePowersOfTenOfPositiveValues) {
   const std::vector<double> values = {0.0, -3.0, 0.02, 700.0};
   const PlotAxis axis = axis_over({&values}, true);
   EXPECT_DOUBLE_EQ(axis.low, 0.01);
@@ -40,7 +40,7 @@ TEST(LinePlot, logarithmic_axis_spans_whole_powers_of_ten_of_positive_values) {
   EXPECT_EQ(ticks_of(axis, 6).size(), 6u);
 }
 
-TEST(LinePlot, a_missing_value_breaks_the_curve) {
+TEST(LinePlot, AMissingValueBreaksTheCurve) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(count(render_svg(one_curve({1, 2, 3, 4})), "d=\"M"), 1u);
   const std::string svg = render_svg(one_curve({1, 2, nan, 4, 5}));
@@ -48,7 +48,7 @@ TEST(LinePlot, a_missing_value_breaks_the_curve) {
   EXPECT_EQ(count(svg.substr(from, svg.find('"', from + 3) - from), "M"), 2u);
 }
 
-TEST(LinePlot, hostile_names_are_text) {
+TEST(LinePlot, HostileNamesAreEscaped) {
   LinePlot plot = one_curve({1, 2});
   plot.title = "</title><script>alert(1)</script>";
   plot.panels[0].series[0].name = "\"><b>";
@@ -59,7 +59,7 @@ TEST(LinePlot, hostile_names_are_text) {
   EXPECT_EQ(count(svg, "<i>"), 0u);
 }
 
-TEST(LinePlot, words_at_close_marks_do_not_overlap) {
+TEST(LinePlot, TextsAtCloseMarksDoNotOverlap) {
   LinePlot plot = one_curve({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
   plot.marks = {{5.0, "onset"}, {5.1, "alarm"}};
   EXPECT_EQ(count(render_svg(plot), "text-anchor=\"end\">onset<"), 1u);
@@ -72,14 +72,14 @@ TEST(LinePlot, words_at_close_marks_do_not_overlap) {
   EXPECT_GT(height_of("alarm"), height_of("onset") + 10.0);
 }
 
-TEST(LinePlot, plots_on_one_page_have_names_of_their_own) {
+TEST(LinePlot, PlotsOnOnePageHaveUniqueIds) {
   LinePlot plot = one_curve({1, 2});
   plot.id = "first-";
   EXPECT_EQ(count(render_svg(plot), "id=\"first-panel0\""), 1u);
   EXPECT_EQ(count(render_svg(plot), "url(#first-panel0)"), 1u);
 }
 
-TEST(LinePlot, an_empty_panel_and_a_constant_curve_still_draw) {
+TEST(LinePlot, AnEmptyPanelAndAConstantCurveAreDrawn) {
   LinePlot plot = one_curve({});
   EXPECT_EQ(count(render_svg(plot), "nan"), 0u);
   EXPECT_EQ(count(render_svg(one_curve({2, 2, 2})), "nan"), 0u);

@@ -80,7 +80,7 @@ void expect_identification_pays(const StudyResult& study) {
   EXPECT_TRUE(study.goals[2].reached()) << study.goals[2].measured.mean();
 }
 
-TEST(GeneratorStudy, its_quick_form_shows_what_the_full_one_does) {
+TEST(GeneratorStudy, AQuickStudyShowsTheEffectsOfTheFullStudy) {
   const StudyResult study = generator_study({.seeds = 1, .seed = 1, .quick = true});
   ASSERT_EQ(study.tables.size(), 3u);
   expect_whole(study);

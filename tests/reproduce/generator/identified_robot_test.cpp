@@ -6,7 +6,7 @@
 namespace faultline {
 namespace {
 
-TEST(IdentifiedRobot, masses_and_friction_are_found_from_held_logs_without_being_given) {
+TEST(IdentifiedRobot, MassesAndFrictionAreIdentifiedFromLogsWithHeldTorque) {
   const Robot truth = bench_robot_with_friction();
   const Robot known = robot_as_known(TorqueTiming::held);
   EXPECT_EQ(known.known.size(), 1u);
@@ -21,7 +21,7 @@ TEST(IdentifiedRobot, masses_and_friction_are_found_from_held_logs_without_being
   EXPECT_NEAR(found.chain.links[2].mass, 0.5, 1e-4);
 }
 
-TEST(IdentifiedRobot, the_timing_of_a_torque_that_is_not_held_is_found_half_way) {
+TEST(IdentifiedRobot, TheTimingOfATorqueThatIsNotHeldIsFoundHalfWay) {
   const Robot found = identified_robot(experiment_on(bench_robot(), ControllerVariant::fast, 1),
                                        {.count = 1, .max_rows = 300});
   ASSERT_TRUE(found.torque_phi);

@@ -6,7 +6,7 @@
 namespace faultline {
 namespace {
 
-TEST(MotionGenerator, runs_hold_as_many_patterns_as_trajectories) {
+TEST(MotionGenerator, RunsHoldAsManyPatternsAsTrajectories) {
   const Experiment experiment = experiment_on(bench_robot(), ControllerVariant::held, 1);
   const auto use = SeedUse::generator_test;
   const auto single = healthy_trajectories(experiment, 20, 0.0, use);
@@ -16,7 +16,7 @@ TEST(MotionGenerator, runs_hold_as_many_patterns_as_trajectories) {
   EXPECT_EQ(transitions_of(runs).count(), transitions_of(single).count());
 }
 
-TEST(MotionGenerator, no_test_trajectory_is_trained_on) {
+TEST(MotionGenerator, NoTestTrajectoryIsUsedForTraining) {
   const Experiment experiment = experiment_on(bench_robot(), ControllerVariant::held, 1);
   const auto training = healthy_trajectories(experiment, 120, 0.0, SeedUse::generator_training);
   const auto test = healthy_trajectories(experiment, 200, 0.0, SeedUse::generator_test);
@@ -24,7 +24,7 @@ TEST(MotionGenerator, no_test_trajectory_is_trained_on) {
     for (const Log& theirs : training) ASSERT_NE(mine.q[0], theirs.q[0]);
 }
 
-TEST(MotionGenerator, the_error_is_in_half_ranges_of_each_output) {
+TEST(MotionGenerator, TheErrorIsInHalfRangesOfEachOutput) {
   const HalfRanges ranges{Eigen::Vector3d(2.0, 4.0, 0.5), Eigen::Vector3d(1.0, 10.0, 5.0), {}};
   Eigen::MatrixXd error(6, 2);
   error << 2.0, -2.0, 4.0, 0.0, 0.5, 0.5, 0.0, 0.0, 10.0, -10.0, 0.5, 0.5;
@@ -33,7 +33,7 @@ TEST(MotionGenerator, the_error_is_in_half_ranges_of_each_output) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(mse[i], expected[i], 1e-15) << i;
 }
 
-TEST(MotionGenerator, physics_of_the_true_robot_is_exact_when_the_torque_is_held) {
+TEST(MotionGenerator, PhysicsOfTheTrueRobotIsExactForHeldTorque) {
   const Experiment experiment = experiment_on(bench_robot(), ControllerVariant::held, 1);
   GeneratorRecipe recipe;
   recipe.fit.kind = ResidualKind::physics;

@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-TEST(Protocol, a_trajectory_of_25_samples_gives_25_transitions_of_73_ms) {
+TEST(Protocol, ATrajectoryOf25SamplesGives25TransitionsOf73Milliseconds) {
   for (const ControllerVariant controller : kControllerVariants) {
     const Log log = trajectory(bench_robot(), controller, 25, 3);
     EXPECT_EQ(log.rows(), 26) << to_string(controller);
@@ -20,14 +20,14 @@ TEST(Protocol, a_trajectory_of_25_samples_gives_25_transitions_of_73_ms) {
   }
 }
 
-TEST(Protocol, the_first_held_torque_of_a_quintic_from_rest_is_zero_but_for_gravity) {
+TEST(Protocol, TheFirstHeldTorqueOfAQuinticFromRestOnlyCarriesTheWeight) {
   const Log log = trajectory(bench_robot(), ControllerVariant::held, 10, 5);
   EXPECT_NEAR(log.tau[0][0], 0.0, 1e-9);
   EXPECT_NEAR(log.tau[1][0], 0.0, 1e-9);
   EXPECT_NEAR(log.tau[2][0], 0.5 * 9.81, 1e-9);
 }
 
-TEST(Protocol, noise_has_the_standard_deviation_asked_for_in_half_ranges) {
+TEST(Protocol, NoiseHasTheGivenStandardDeviationInHalfRanges) {
   const Robot robot = bench_robot();
   const HalfRanges ranges = half_ranges(robot, ControllerVariant::held);
   Log log = run_of_moves(robot, ControllerVariant::held, {.duration_s = 600.0}, 7);
@@ -45,7 +45,7 @@ TEST(Protocol, noise_has_the_standard_deviation_asked_for_in_half_ranges) {
   }
 }
 
-TEST(Protocol, uses_and_items_draw_different_seeds) {
+TEST(Protocol, UsesAndItemsDrawDifferentSeeds) {
   std::set<std::uint64_t> seen;
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
     for (int use = 0; use < 10; ++use)

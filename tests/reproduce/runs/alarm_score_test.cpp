@@ -16,7 +16,7 @@ ExperimentRun run_of(double length_s, Joint joint, double onset_s) {
   return run;
 }
 
-TEST(AlarmScore, counts_alarms_before_the_onset_as_false_and_the_first_after_it_as_detection) {
+TEST(AlarmScore, CountsAlarmsBeforeTheOnsetAsFalseAndTheFirstAfterItAsDetection) {
   AlarmScore score;
   const FaultLabel right{FaultKind::free_swinging, 2_joint}, wrong{FaultKind::free_swinging, 1_joint};
   score.add(run_of(20.0, 2_joint, 10.0), {{3.0, right}, {10.5, wrong}, {11.0, right}});
@@ -32,7 +32,7 @@ TEST(AlarmScore, counts_alarms_before_the_onset_as_false_and_the_first_after_it_
   EXPECT_NEAR(score.delay_quantile(0.9), 1.0, 1e-12);
 }
 
-TEST(AlarmScore, has_no_delay_where_nothing_was_found) {
+TEST(AlarmScore, HasNoDelayIfNothingWasFound) {
   AlarmScore score;
   score.add(run_of(20.0, 1_joint, 10.0), {});
   EXPECT_EQ(score.detected(), 0.0);

@@ -40,7 +40,7 @@ std::vector<double> times_of(const Alarms& alarms) {
   return times;
 }
 
-TEST(CriterionSweep, raises_the_alarms_of_apply_criterion_for_every_g) {
+TEST(CriterionSweep, RaisesTheAlarmsOfApplyCriterionForEveryG) {
   const Eigen::MatrixXd outputs = leaning_outputs(5000);
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(5000, 0.0, 499.9);
   const std::vector<Alarms> swept = sweep_consecutive(kMeaning, time, outputs, 12);
@@ -52,7 +52,7 @@ TEST(CriterionSweep, raises_the_alarms_of_apply_criterion_for_every_g) {
         << g;
 }
 
-TEST(CriterionSweep, raises_the_alarms_of_apply_criterion_for_every_threshold) {
+TEST(CriterionSweep, RaisesTheAlarmsOfApplyCriterionForEveryThreshold) {
   const Eigen::MatrixXd outputs = leaning_outputs(5000);
   const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(5000, 0.0, 499.9);
   const std::vector<double> thresholds = {0.7, 2.0, 5.0, 9.0};
@@ -65,7 +65,7 @@ TEST(CriterionSweep, raises_the_alarms_of_apply_criterion_for_every_threshold) {
         << thresholds[i];
 }
 
-TEST(CriterionSweep, names_an_alarm_by_the_output_that_raised_it) {
+TEST(CriterionSweep, NamesAnAlarmByTheOutputThatRaisedIt) {
   Eigen::MatrixXd outputs(3, 3);
   outputs << 0.0, 0.0, 0.0, 0.1, 0.9, 0.9, 0.8, 0.1, 0.1;
   const Eigen::Vector3d time(0.0, 1.0, 2.0);
@@ -82,13 +82,13 @@ AlarmScore score(int found, int false_alarms) {
   return score;
 }
 
-TEST(ChooseSetting, takes_the_first_with_the_fewest_false_alarms_and_a_step_of_margin) {
+TEST(ChooseSetting, ChoosesTheFirstWithTheFewestFalseAlarmsAndAStepOfMargin) {
   const std::vector<AlarmScore> scores = {score(100, 50), score(100, 3), score(99, 0), score(99, 0),
                                           score(70, 0)};
   EXPECT_EQ(choose_setting(scores), 3);
 }
 
-TEST(ChooseSetting, takes_no_margin_that_costs_detections_nor_a_setting_that_finds_little) {
+TEST(ChooseSetting, ChoosesNoMarginThatCostsDetectionsAndNoSettingThatFindsLittle) {
   const std::vector<AlarmScore> scores = {score(100, 50), score(95, 2), score(80, 0)};
   EXPECT_EQ(choose_setting(scores), 1);
 }

@@ -43,7 +43,7 @@ CaseBase cases() {
   return base;
 }
 
-TEST(DualDecision, believes_networks_that_agree_and_lets_cases_settle_the_rest) {
+TEST(DualDecision, AcceptsNetworksThatAgreeAndLetsCasesDecideTheRest) {
   const double dt = kSamplePeriod;
   const std::vector<SuspectSample> suspicions = {
       suspicion(1.0, 2, sum_of(6.2, 0.0), sum_of(0.0, 0.0)),       // a false alarm, say the cases
@@ -61,7 +61,7 @@ TEST(DualDecision, believes_networks_that_agree_and_lets_cases_settle_the_rest) 
   EXPECT_EQ(alarms[1].label, kClasses[0]);
 }
 
-TEST(DualDecision, at_each_sample_takes_the_class_both_networks_name) {
+TEST(DualDecision, TakesTheClassThatBothNetworksNameAtEachSample) {
   SampleOutputs outputs;
   outputs.time = Eigen::Vector2d(0.0, 1.0);
   outputs.mlp = Eigen::MatrixXd{{0.1, 0.8}, {0.2, 0.1}, {0.7, 0.1}};
@@ -71,7 +71,7 @@ TEST(DualDecision, at_each_sample_takes_the_class_both_networks_name) {
   EXPECT_EQ(decided, (Eigen::MatrixXd{{0.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}));
 }
 
-TEST(DualDecision, says_nothing_of_a_sample_without_outputs) {
+TEST(DualDecision, GivesNoDecisionForASampleWithoutOutputs) {
   SampleOutputs outputs;
   outputs.time = Eigen::Vector2d(0.0, kSamplePeriod);
   outputs.mlp = outputs.rbfn = Eigen::MatrixXd::Zero(3, 2);

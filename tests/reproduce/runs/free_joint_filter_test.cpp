@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSigma = 0.01;
 
-TEST(FreeJointFilter, finds_and_names_each_free_joint_and_keeps_quiet_before) {
+TEST(FreeJointFilter, FindsAndNamesEachFreeJointWithoutAnEarlierAlarm) {
   const Experiment experiment = experiment_on(bench_robot(), ControllerVariant::held, 3);
   const HealthyLogs healthy = healthy_logs(experiment, 20.0, kSigma);
   const FilteredRobot robot = with_missed_share(known_steps(experiment.robot, healthy), healthy.logs);

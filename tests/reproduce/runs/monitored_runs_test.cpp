@@ -10,7 +10,7 @@ const RunSet kSet{.faulty = 6, .fault_free_h = 0.05, .hour_s = 100.0};
 
 Experiment held_experiment() { return experiment_on(bench_robot(), ControllerVariant::held, 1); }
 
-TEST(MonitoredRuns, have_the_faults_onsets_and_hours_asked_for) {
+TEST(MonitoredRuns, HaveTheRequestedFaultsOnsetsAndHours) {
   const auto runs = monitored_runs(held_experiment(), kSet, SeedUse::run_test);
   double fault_free_s = 0.0;
   int faulty = 0;
@@ -29,7 +29,7 @@ TEST(MonitoredRuns, have_the_faults_onsets_and_hours_asked_for) {
   EXPECT_NEAR(fault_free_s, 180.0, 1.0);
 }
 
-TEST(MonitoredRuns, of_different_uses_differ_and_noise_leaves_the_motion_as_it_was) {
+TEST(MonitoredRuns, OfDifferentUsesDifferAndNoiseDoesNotChangeTheTorque) {
   const Experiment experiment = held_experiment();
   const auto runs = monitored_runs(experiment, kSet, SeedUse::run_test);
   const auto others = monitored_runs(experiment, kSet, SeedUse::run_tuning);

@@ -9,7 +9,7 @@
 namespace faultline {
 namespace {
 
-TEST(PairedBootstrap, gives_the_interval_of_the_normal_approximation_on_many_runs) {
+TEST(PairedBootstrap, GivesTheIntervalOfTheNormalApproximationOnManyRuns) {
   Random random(3);
   std::vector<double> ours, theirs;
   for (int i = 0; i < 400; ++i) {
@@ -23,7 +23,7 @@ TEST(PairedBootstrap, gives_the_interval_of_the_normal_approximation_on_many_run
   EXPECT_NEAR(difference.high, difference.value + half, 0.02);
 }
 
-TEST(PairedBootstrap, counts_a_missed_fault_with_the_delay_given) {
+TEST(PairedBootstrap, CountsAMissedFaultWithTheGivenDelay) {
   AlarmScore score;
   score.outcomes = {{.detected = true, .right_joint = true, .delay_s = 0.2}, {}};
   EXPECT_EQ(delays_of(score, 6.0), (std::vector<double>{0.2, 6.0}));

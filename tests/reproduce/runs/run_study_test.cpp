@@ -27,7 +27,7 @@ double figure(const ResultTable& table, const std::vector<std::string>& labels, 
   return row->figures[at - table.figure_columns.begin()]->mean();
 }
 
-TEST(RunStudy, gives_a_table_a_controller_and_a_trade_off_a_noise) {
+TEST(RunStudy, HasATablePerControllerAndATradeOffPerNoise) {
   for (const char* id : {"runs_held", "runs_fast", "runs_pd", "dual_held", "trade_off_held_0.01",
                          "trade_off_held_0.1", "trade_off_pd_0.01"})
     EXPECT_TRUE(std::any_of(quick_study().tables.begin(), quick_study().tables.end(),
@@ -40,7 +40,7 @@ TEST(RunStudy, gives_a_table_a_controller_and_a_trade_off_a_noise) {
     }
 }
 
-TEST(RunStudy, what_the_departures_from_the_paper_buy_has_the_right_order_of_magnitude) {
+TEST(RunStudy, GainsOverThePaperHaveTheRightOrderOfMagnitude) {
   const ResultTable& held = table("runs_held");
   const std::vector<std::string> paper = {"0.01", "paper's recipe, RBFN", decision_name::kConsecutive};
   const std::vector<std::string> best = {"0.01", detector_name::kBestAverage, decision_name::kLogOdds};
@@ -57,7 +57,7 @@ TEST(RunStudy, what_the_departures_from_the_paper_buy_has_the_right_order_of_mag
   }
 }
 
-TEST(RunStudy, a_larger_g_has_fewer_false_alarms_and_more_delay) {
+TEST(RunStudy, ALargerGHasFewerFalseAlarmsAndMoreDelay) {
   const ResultTable& trade_off = table("trade_off_held_0.1");
   const std::string detector = detector_name::kBestMlp;
   EXPECT_GT(figure(trade_off, {detector, "1"}, "false alarms"),
@@ -66,7 +66,7 @@ TEST(RunStudy, a_larger_g_has_fewer_false_alarms_and_more_delay) {
             figure(trade_off, {detector, "10"}, "median delay"));
 }
 
-TEST(RunStudy, states_each_goal_with_its_measured_value) {
+TEST(RunStudy, StatesEachGoalWithItsMeasuredValue) {
   ASSERT_FALSE(quick_study().goals.empty());
   for (const Goal& goal : quick_study().goals) EXPECT_EQ(goal.measured.by_seed.size(), 1u) << goal.what;
 }

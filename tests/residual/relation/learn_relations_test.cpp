@@ -29,7 +29,7 @@ const SignalRelation& of_kind(const std::vector<SignalRelation>& relations, Rela
   throw std::runtime_error("no such relation");
 }
 
-TEST(LearnRelations, TheDriveOfALogLeftOutIsExplainedUpToItsNoise) {
+TEST(LearnRelations, TheDriveOfAHeldOutLogIsPredictedUpToItsNoise) {
   const auto relations = learned(two_days());
   const SignalRelation& drive = of_kind(relations, RelationKind::actuator);
   EXPECT_EQ(drive.target, Quantity::tau_meas);
@@ -40,7 +40,7 @@ TEST(LearnRelations, TheDriveOfALogLeftOutIsExplainedUpToItsNoise) {
   EXPECT_LT(drive.windows.front().std, 0.02);
 }
 
-TEST(LearnRelations, ADriveWhoseTorqueFollowsItsSpeedTooIsToldSo) {
+TEST(LearnRelations, ADriveWhoseTorqueDependsOnItsSpeedHasTheSpeedAsInput) {
   std::vector<Log> logs;
   for (const std::uint64_t seed : {1, 2})
     logs.push_back(DrivenJoint{.by_speed = 0.3, .seed = seed}.log(20.0));
@@ -50,7 +50,7 @@ TEST(LearnRelations, ADriveWhoseTorqueFollowsItsSpeedTooIsToldSo) {
   EXPECT_NEAR(drive.weights[0], 1.0, 0.1) << "of the command";
 }
 
-TEST(LearnRelations, AnExactSpeedDoesNotStandForTheCommand) {
+TEST(LearnRelations, AnExactSpeedDoesNotReplaceTheCommand) {
   std::vector<Log> logs;
   for (const std::uint64_t seed : {1, 2})
     logs.push_back(DrivenJoint{.noise = 0.2, .reading_noise = 1e-7, .seed = seed}.log(20.0));
@@ -67,7 +67,7 @@ TEST(LearnRelations, ThePDLawIsFoundWithItsGains) {
   EXPECT_NEAR(law.weights[0], 40.0, 0.5);
 }
 
-TEST(LearnRelations, ACommandThatFollowsNoLawIsNone) {
+TEST(LearnRelations, ACommandThatFollowsNoLawGivesNoControlLaw) {
   std::vector<Log> logs = two_days();
   Random random(3);
   for (Log& log : logs)
@@ -75,13 +75,13 @@ TEST(LearnRelations, ACommandThatFollowsNoLawIsNone) {
   for (const SignalRelation& relation : learned(logs)) EXPECT_NE(relation.kind, RelationKind::control_law);
 }
 
-TEST(LearnRelations, WithoutReferenceAndSecondTorqueThereIsNone) {
+TEST(LearnRelations, LogsWithoutReferenceAndSecondTorqueGiveNoRelation) {
   std::vector<Log> logs = two_days();
   for (Log& log : logs) log.q_ref.clear(), log.dq_ref.clear(), log.tau_meas.clear();
   EXPECT_TRUE(learned(logs).empty());
 }
 
-TEST(LearnRelations, AMeasuredTauFollowsTheCommandedOne) {
+TEST(LearnRelations, AMeasuredTorqueFollowsTheCommandedTorque) {
   std::vector<Log> logs = two_days();
   for (Log& log : logs)
     log.tau_ref = std::move(log.tau), log.tau = std::move(log.tau_meas), log.tau_meas.clear();
@@ -91,7 +91,7 @@ TEST(LearnRelations, AMeasuredTauFollowsTheCommandedOne) {
   EXPECT_EQ(drive.inputs, std::vector<Quantity>{Quantity::tau_ref});
 }
 
-TEST(LearnRelations, OneLogIsLeftOutPieceByPiece) {
+TEST(LearnRelations, PartsOfASingleLogAreHeldOutInTurn) {
   EXPECT_EQ(learned({DrivenJoint{}.log(30.0)}).size(), 4u);
 }
 

@@ -46,7 +46,7 @@ TEST(LearnTracking, PositionAndVelocityFollowTheirReferences) {
   }
 }
 
-TEST(LearnTracking, HealthyDaysAreQuietAlsoWithLostRows) {
+TEST(LearnTracking, HealthyDaysRaiseNoAlarmAlsoWithLostRows) {
   for (std::uint64_t seed = 10; seed < 20; ++seed) {
     const Log log = SteppedJoint{.seed = seed}.log(40.0);
     Log some;
@@ -60,7 +60,7 @@ TEST(LearnTracking, HealthyDaysAreQuietAlsoWithLostRows) {
   }
 }
 
-TEST(LearnTracking, AStallHasItsTimeAndStandsStill) {
+TEST(LearnTracking, AStallIsFoundWithItsTimeInPositionAndVelocity) {
   const Log log = SteppedJoint{.stall_from_s = 12.0, .stall_to_s = 12.6, .seed = 21}.log(30.0);
   const auto position = watched(stiff(), log, Quantity::q);
   ASSERT_FALSE(position.empty());
@@ -71,7 +71,7 @@ TEST(LearnTracking, AStallHasItsTimeAndStandsStill) {
   EXPECT_NEAR(velocity[0].onset_s, 12.0, 0.15);
 }
 
-TEST(LearnTracking, LostStepsStayLost) {
+TEST(LearnTracking, LostStepsAreAnEpisodeThatLasts) {
   const Log log =
       SteppedJoint{.stall_from_s = 12.0, .stall_to_s = 12.3, .counts_steps = true, .seed = 22}.log(30.0);
   const auto position = watched(stiff(), log, Quantity::q);

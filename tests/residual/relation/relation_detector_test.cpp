@@ -36,7 +36,7 @@ std::vector<RelationEpisode> watched(RelationKind kind, const Log& log, int segm
   throw std::runtime_error("no such relation");
 }
 
-TEST(RelationDetector, HealthyDaysAreQuiet) {
+TEST(RelationDetector, HealthyDaysRaiseNoAlarm) {
   for (std::uint64_t seed = 10; seed < 20; ++seed) {
     const Log log = DrivenJoint{.seed = seed}.log(30.0);
     EXPECT_TRUE(watched(RelationKind::actuator, log).empty()) << seed;
@@ -44,7 +44,7 @@ TEST(RelationDetector, HealthyDaysAreQuiet) {
   }
 }
 
-TEST(RelationDetector, ATorqueThatNobodyCommandedHasItsTimeAndSize) {
+TEST(RelationDetector, ATorqueWithoutACommandIsFoundWithItsTimeAndSize) {
   const Log log = DrivenJoint{.seed = 11, .in_drive = pulse(6.0, 6.3, 2.0)}.log(20.0);
   const auto episodes = watched(RelationKind::actuator, log);
   ASSERT_EQ(episodes.size(), 1u);
@@ -56,13 +56,13 @@ TEST(RelationDetector, ATorqueThatNobodyCommandedHasItsTimeAndSize) {
   EXPECT_TRUE(watched(RelationKind::control_law, log).empty()) << "the controller did what it always does";
 }
 
-TEST(RelationDetector, PulsesHalfASecondApartAreTwo) {
+TEST(RelationDetector, PulsesHalfASecondApartAreTwoEpisodes) {
   DrivenJoint joint{.seed = 12};
   joint.in_drive = [](double t) { return (t >= 6.0 && t < 6.2) || (t >= 6.7 && t < 6.9) ? -2.0 : 0.0; };
   EXPECT_EQ(watched(RelationKind::actuator, joint.log(20.0)).size(), 2u);
 }
 
-TEST(RelationDetector, PulsesAThirdOfASecondLongEach150MillisecondsApartAreSoMany) {
+TEST(RelationDetector, PulsesOf300MillisecondsWith150BetweenThemAreSeparateEpisodes) {
   DrivenJoint joint{.seed = 12};
   joint.in_drive = [](double t) {
     const double of_period = std::fmod(t - 6.0, 0.45);
@@ -83,7 +83,7 @@ Log with_drive_limit(double limit, std::uint64_t seed) {
   return log;
 }
 
-TEST(RelationDetector, ACommandBeyondAllThatTheDriveEverGaveIsNoFaultOfTheDrive) {
+TEST(RelationDetector, ACommandBeyondTheLargestLearnedTorqueIsNotAFaultOfTheDrive) {
   constexpr double kLimit = 3.0;
   std::vector<MemorySource> days;
   for (const std::uint64_t seed : {1, 2, 3}) days.emplace_back(with_drive_limit(kLimit, seed));
@@ -102,7 +102,7 @@ TEST(RelationDetector, ACommandBeyondAllThatTheDriveEverGaveIsNoFaultOfTheDrive)
   EXPECT_TRUE(watch.episodes().empty());
 }
 
-TEST(RelationDetector, ALostShareOfTheTorqueIsToldFromAnOffset) {
+TEST(RelationDetector, ALostShareOfTheTorqueIsDistinguishedFromAnOffset) {
   const auto lost = watched(RelationKind::actuator,
                             DrivenJoint{.seed = 13, .drive_gain_from_s = 8.0, .drive_gain = 0.6}.log(20.0));
   ASSERT_FALSE(lost.empty());
@@ -115,7 +115,7 @@ TEST(RelationDetector, ALostShareOfTheTorqueIsToldFromAnOffset) {
   EXPECT_LT(offset[0].share_explains, 0.5);
 }
 
-TEST(RelationDetector, WhatIsAddedToTheCommandLeavesTheLawNotTheDrive) {
+TEST(RelationDetector, ATorqueAddedToTheCommandDeviatesFromTheLawButNotAtTheDrive) {
   const Log log = DrivenJoint{.seed = 14, .in_command = pulse(9.0, 9.2, 1.0)}.log(20.0);
   const auto law = watched(RelationKind::control_law, log);
   ASSERT_EQ(law.size(), 1u);
@@ -124,7 +124,7 @@ TEST(RelationDetector, WhatIsAddedToTheCommandLeavesTheLawNotTheDrive) {
   EXPECT_TRUE(watched(RelationKind::actuator, log).empty());
 }
 
-TEST(RelationDetector, WhereSegmentsEndChangesNothing) {
+TEST(RelationDetector, BordersOfSegmentsChangeNothing) {
   const Log log = DrivenJoint{.seed = 15, .in_drive = pulse(6.0, 6.3, 2.0)}.log(20.0);
   const auto whole = watched(RelationKind::actuator, log), pieces = watched(RelationKind::actuator, log, 7);
   ASSERT_EQ(whole.size(), pieces.size());
@@ -133,7 +133,7 @@ TEST(RelationDetector, WhereSegmentsEndChangesNothing) {
   EXPECT_EQ(whole[0].mean, pieces[0].mean);
 }
 
-TEST(RelationDetector, LostRowsAreNoFault) {
+TEST(RelationDetector, LostRowsAreNotAFault) {
   Log log = DrivenJoint{.seed = 16}.log(20.0);
   Log some = slice(log, 0, 1000);
   append(some, slice(log, 1020, 2000));

@@ -107,7 +107,7 @@ std::vector<Eigen::Matrix4d> table_frames(const Arm& arm, const Vector& q) {
 
 class PublishedTable : public testing::TestWithParam<Arm> {};
 
-TEST_P(PublishedTable, TurnsAndPlacesEveryLinkAsItsClosedFormDoes) {
+TEST_P(PublishedTable, GivesThePoseOfEveryLinkOfItsClosedForm) {
   const Arm& arm = GetParam();
   const Robot robot = robot_from_toml(file_of(arm), arm.name);
   const int n = robot.joints();
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Arms, PublishedTable, testing::ValuesIn(published()), [
   return name;
 });
 
-TEST(DenavitHartenberg, ReadsAsNumbersWithoutDust) {
+TEST(DenavitHartenberg, RightAnglesGiveExactAxesAndOffsets) {
   const Robot robot = robot_from_toml(file_of(published()[0]), "UR10");
   EXPECT_EQ(robot.chain.geometry[1].axis, Eigen::Vector3d(0, -1, 0));
   EXPECT_EQ(robot.chain.geometry[1].offset, Eigen::Vector3d(0, 0, 0.1273));
@@ -166,7 +166,7 @@ void expect_error(const std::string& text, const std::string& where, const std::
   }
 }
 
-TEST(DenavitHartenberg, WhatElsePlacesJointsIsRefused) {
+TEST(DenavitHartenberg, OtherKeysThatPlaceJointsAreRefused) {
   const std::string row = "[[joint]]\nkind = \"revolute\"\ndh = {a = 1}\n";
   expect_error("axes = \"R\"\n" + row, "line 1, key axes", "leave out axes");
   expect_error(row + "axis = [0, 0, 1]\n", "joint[1].axis", "together with dh");

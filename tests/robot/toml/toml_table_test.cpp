@@ -25,7 +25,7 @@ std::string error_of(const std::string& text) {
   return "no error";
 }
 
-TEST(TomlDepth, KeysOfManyDotsAreRefusedNotFollowed) {
+TEST(TomlDepth, KeysOfManyDotsAreRefused) {
   const std::string deep = "a" + repeated(".a", 35000);
   const std::string three = "\"\"\"";
   for (const std::string& text :
@@ -37,12 +37,12 @@ TEST(TomlDepth, KeysOfManyDotsAreRefusedNotFollowed) {
         << text.substr(0, 40);
 }
 
-TEST(TomlDepth, BracketsWithinBracketsAreRefusedNotFollowed) {
+TEST(TomlDepth, DeeplyNestedBracketsAreRefused) {
   EXPECT_NE(error_of("x = " + repeated("[", 100000)).find("is nested deeper than"), std::string::npos);
   EXPECT_NE(error_of("x = " + repeated("{a=", 100000)).find("is nested deeper than"), std::string::npos);
 }
 
-TEST(TomlDepth, PlaceIsNamed) {
+TEST(TomlDepth, TheErrorNamesThePlace) {
   EXPECT_NE(error_of("a = 1\n b" + repeated(".b", 17)).find("r.toml, line 2, column 35"), std::string::npos);
 }
 
@@ -54,7 +54,7 @@ TEST(TomlDepth, TextCommentsAndManyNumbersAreNotDeep) {
     EXPECT_EQ(error_of(text).find("is nested deeper than"), std::string::npos) << text.substr(0, 40);
 }
 
-TEST(TomlDepth, SpecsStandBehindTheSameGate) {
+TEST(TomlDepth, SpecsHaveTheSameLimitOfDepth) {
   const std::string deep = "a" + repeated(".a", 35000) + " = 1\n";
   EXPECT_THROW(simulation_from_toml(deep, "spec.toml", "."), Error);
 }

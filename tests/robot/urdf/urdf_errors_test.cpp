@@ -73,7 +73,7 @@ TEST(UrdfErrors, MissingAttributesAreNamed) {
                {"<mass>", "has no value"});
 }
 
-TEST(UrdfErrors, NumbersThatAreNoneAreQuoted) {
+TEST(UrdfErrors, InvalidNumbersAreQuoted) {
   for (const char* bad : {"nan 0 0", "0 inf 0", "0 0", "0 0 0 0", "0,0,0", "1e999 0 0", "0x1 0 0", "one 0 0"})
     expect_error(robot(kPair + joint("j", "revolute", "a", "b", fmt::format("<origin xyz='{}'/>", bad))),
                  {"line 4, <origin>", bad, "3 finite numbers"});
@@ -97,7 +97,7 @@ TEST(UrdfErrors, MassesMustBePhysical) {
   expect_error(with("1e308", "1"), {"overflow"});
 }
 
-TEST(UrdfErrors, TypesWithoutAMeaningInAChainAreRefused) {
+TEST(UrdfErrors, JointTypesWithoutAMeaningInAChainAreRefused) {
   expect_error(robot(kPair + joint("j", "screw", "a", "b")), {"\"screw\"", "expected revolute"});
   expect_error(robot(kPair + joint("j", "floating", "a", "b")),
                {"joint \"j\"", "is floating", "Make it fixed"});
@@ -107,7 +107,7 @@ TEST(UrdfErrors, TypesWithoutAMeaningInAChainAreRefused) {
   expect_error(robot(kPair + joint("j", "fixed", "a", "b")), {"no moving joint"});
 }
 
-TEST(UrdfErrors, LinksThatAreNoTreeAreNamed) {
+TEST(UrdfErrors, LinksThatDoNotFormATreeAreNamed) {
   expect_error(robot(""), {"no <link>"});
   expect_error(robot(kPair), {"several bases: \"a\", \"b\""});
   expect_error(robot(kPair + joint("j", "revolute", "a", "c")), {"\"j\"", "child the link \"c\""});
@@ -121,20 +121,20 @@ TEST(UrdfErrors, LinksThatAreNoTreeAreNamed) {
                {"joint \"k\"", "child of joint \"j\""});
 }
 
-TEST(UrdfErrors, NamesAreGivenOnce) {
+TEST(UrdfErrors, RepeatedNamesAreRefused) {
   expect_error(robot(link("a") + link("a")), {"line 3, <link> \"a\"", "names must be unique"});
   expect_error(robot(kPair + link("c") + joint("j", "fixed", "a", "b") + joint("j", "fixed", "b", "c")),
                {"<joint> \"j\"", "names must be unique"});
   expect_error(robot(link("a", "<inertial/><inertial/>")), {"more than one <inertial>"});
 }
 
-TEST(UrdfErrors, TwoLongestChainsNameTheirTips) {
+TEST(UrdfErrors, TwoEquallyLongChainsAreRefusedWithTheirTips) {
   expect_error(robot(kPair + link("left") + link("right") + joint("j", "revolute", "a", "b") +
                      joint("l", "prismatic", "b", "left") + joint("r", "prismatic", "b", "right")),
                {"2 chains of 2 moving joints", "\"left\", \"right\"", "make the joints fixed"});
 }
 
-TEST(UrdfErrors, TooManyJointsAreCounted) {
+TEST(UrdfErrors, TooManyJointsAreRefusedWithTheirNumber) {
   std::string text = link("l0");
   for (int i = 1; i <= 9; ++i)
     text += link(fmt::format("l{}", i)) +
@@ -149,7 +149,7 @@ TEST(UrdfErrors, AHugeOrDeepFileIsRefused) {
   expect_error(robot(deep), {"not valid XML"});
 }
 
-TEST(UrdfErrors, AVeryLongChainOfFixedLinksIsNoTrouble) {
+TEST(UrdfErrors, AVeryLongChainOfFixedLinksIsRead) {
   std::string text = link("l0");
   for (int i = 1; i <= 20000; ++i)
     text += link(fmt::format("l{}", i)) + joint(fmt::format("j{}", i), i == 7 ? "revolute" : "fixed",

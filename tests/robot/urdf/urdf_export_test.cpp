@@ -50,7 +50,7 @@ void expect_moves_alike(const Robot& a, const Robot& b) {
   }
 }
 
-TEST(UrdfExport, ReadsBackAsARobotThatMovesExactlyAlike) {
+TEST(UrdfExport, IsReadBackAsARobotThatMovesIdentically) {
   Random random(70);
   for (const char* axes : {"RRP", "RR", "RRPR", "P", "PRRR"}) {
     Robot robot = with_friction(preset_robot(axes), random);
@@ -66,7 +66,7 @@ TEST(UrdfExport, ReadsBackAsARobotThatMovesExactlyAlike) {
   }
 }
 
-TEST(UrdfExport, KeepsWhatUrdfCannotHold) {
+TEST(UrdfExport, KeepsThePropertiesThatUrdfCannotHold) {
   Robot robot = robot_from_toml(R"(
 name = "cell \u0001 4"
 axes = "RRP"
@@ -96,7 +96,7 @@ q1 = {name = "J1 ]]> & \"position\"", unit = "deg"}
   EXPECT_EQ(again(robot).torque_phi, robot.torque_phi);
 }
 
-TEST(UrdfExport, KeepsIdentifiedNumbersThatNoBodyHas) {
+TEST(UrdfExport, KeepsInfeasibleIdentifiedNumbers) {
   Random random(72);
   Robot robot = with_friction(preset_robot("RRP"), random);
   robot.identified = true;
@@ -114,7 +114,7 @@ TEST(UrdfExport, KeepsIdentifiedNumbersThatNoBodyHas) {
   EXPECT_EQ(back.chain.links[0].first_moment, robot.chain.links[0].first_moment);
 }
 
-TEST(UrdfExport, WithoutItsOwnElementTheBodiesStillMoveAlike) {
+TEST(UrdfExport, WithoutItsOwnElementTheBodiesMoveIdentically) {
   Random random(73);
   Robot robot = six_axes(random);
   robot.chain.gravity = {0, 0, -9.81};
@@ -126,7 +126,7 @@ TEST(UrdfExport, WithoutItsOwnElementTheBodiesStillMoveAlike) {
   expect_moves_alike(robot, robot_from_urdf(text, "other.urdf"));
 }
 
-TEST(UrdfExport, EditsOfTheBodiesCount) {
+TEST(UrdfExport, EditsOfTheBodiesAreUsed) {
   std::string text = urdf_text(preset_robot("RRPR"));
   const std::string mass = "<mass value=\"1\"/>";
   text.replace(text.rfind(mass), mass.size(), "<mass value=\"4\"/>");

@@ -134,7 +134,7 @@ Reference reference(const std::vector<Part>& parts, const Vector& q) {
   return out;
 }
 
-TEST(UrdfImport, MovesAsTheSpecificationSaysInTurnedFrames) {
+TEST(UrdfImport, MovesByTheSpecificationInRotatedFrames) {
   const auto parts = random_tree();
   const Robot robot = robot_from_urdf(text_of(parts), "tree.urdf");
   ASSERT_EQ(robot.joints(), 6);
@@ -187,7 +187,7 @@ TEST(UrdfImport, ReadsAxesOriginsMassesAndFriction) {
   EXPECT_FALSE(robot.identified);
 }
 
-TEST(UrdfImport, AxisPointsAlongXWhenNothingIsSaid) {
+TEST(UrdfImport, TheDefaultAxisPointsAlongX) {
   const Robot robot = robot_from_urdf(
       "<robot><link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/>"
       "<child link='b'/></joint></robot>",

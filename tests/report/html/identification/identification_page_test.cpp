@@ -44,14 +44,14 @@ TEST(IdentificationPage, LoadsAndRunsNothing) {
   EXPECT_NE(page.find("script-src 'none'"), std::string::npos);
 }
 
-TEST(IdentificationPage, PicturesHaveNamesOfTheirOwn) {
+TEST(IdentificationPage, PicturesHaveUniqueNames) {
   std::set<std::string> names;
   for (const NamedPlot& plot : identification_figures(identified()))
     EXPECT_TRUE(names.insert(plot.name).second) << plot.name;
   EXPECT_GE(names.size(), 12u);
 }
 
-TEST(IdentificationPage, WithoutCurvesItHasTablesAlone) {
+TEST(IdentificationPage, HasOnlyTablesIfThereAreNoCurves) {
   Identification id = identified();
   id.joint_fits.clear();
   const std::string page = render_identification_html(id);

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "lib/explain/judge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/explain/explained_scara.hpp"
+
+namespace faultline {
+namespace {
+
+using testing::fit_of;
+using testing::of_day;
+using testing::run_of;
+using testing::simulate_closed_form;
+
+/// Returns the number of rows of joint 2 after the onset that have weight.
+double rows_after(const LogFit& fit, double onset_s) {
+  double out = 0.0;
+  for (int k = 0; k < fit.count(); ++k) out += fit.time_s()[k] > onset_s && fit.std()(k, 1) < kNoWeight;
+  return out;
+}
+
+TEST(PriceOfShrinking, IsTheLogarithmOfTheInertiaThatTheDayLeavesForEachRow) {
+  const LogFit fit = fit_of(simulate_closed_form(of_day(0), run_of(15)));
+  const DayLayout at = day_layout(fit.model());
+  const FaultClaim loss{FaultKind::torque_loss, 2_joint, 4.0};
+  Explanation e;
+  e.day = Eigen::VectorXd::Zero(at.count());
+  EXPECT_EQ(price_of_shrinking(fit, loss, e), 0.0);
+  e.day[at.gain(1)] = -0.3;
+  EXPECT_NEAR(price_of_shrinking(fit, loss, e), -rows_after(fit, 4.0) * std::log(0.7), 1e-9);
+  e.day.setZero();
+  e.day.head(at.base).setConstant(-0.3);
+  EXPECT_NEAR(price_of_shrinking(fit, loss, e), -rows_after(fit, 4.0) * std::log(0.7), 1e-9);
+}
+
+TEST(PriceOfShrinking, IsThatOfAnUnknownForceAtMost) {
+  const LogFit fit = fit_of(simulate_closed_form(of_day(0), run_of(15)));
+  const DayLayout at = day_layout(fit.model());
+  Explanation e;
+  e.day = Eigen::VectorXd::Zero(at.count());
+  e.day[at.gain(1)] = -1.5;
+  EXPECT_EQ(price_of_shrinking(fit, {FaultKind::free_swinging, 2_joint, 4.0}, e),
+            kForcedRow * rows_after(fit, 4.0));
+}
+
+TEST(PriceOfShrinking, IsPaidByTorqueLossesAlone) {
+  const LogFit fit = fit_of(simulate_closed_form(of_day(0), run_of(15)));
+  const DayLayout at = day_layout(fit.model());
+  Explanation e;
+  e.day = Eigen::VectorXd::Constant(at.count(), -0.3);
+  EXPECT_GT(price_of_shrinking(fit, {FaultKind::torque_loss, 2_joint, 4.0}, e), 0.0);
+  EXPECT_EQ(price_of_shrinking(fit, {FaultKind::friction_increase, 2_joint, 4.0}, e), 0.0);
+}
+
+}  // namespace
+}  // namespace faultline
