@@ -5,7 +5,7 @@
 
 #include "formats/log_formats.hpp"
 #include "lib/core/error.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 
 namespace faultline {
 

@@ -11,7 +11,7 @@
 #include "lib/cases/possible_labels.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/fault/fault_words.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/report/case_from_json.hpp"
 
 namespace faultline {

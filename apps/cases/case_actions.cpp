@@ -21,8 +21,8 @@
 #include "lib/core/error.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/fault/fault_kind.hpp"
-#include "lib/fault/fault_words.hpp"
 
 namespace faultline {
 namespace {

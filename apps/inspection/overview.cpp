@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "apps/inspection/inspection.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 
 namespace faultline {
 namespace {

@@ -19,7 +19,7 @@
 #include "lib/core/issue.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 #include "lib/log/mapped_source.hpp"
 #include "lib/log/recorder/corrected_source.hpp"
 #include "lib/robot/chain.hpp"

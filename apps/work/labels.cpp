@@ -9,7 +9,6 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/files/open_ending.hpp"
 
 namespace faultline {
 namespace {

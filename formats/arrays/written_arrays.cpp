@@ -8,7 +8,7 @@
 
 #include "formats/log_writer.hpp"
 #include "lib/core/error.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 
 namespace faultline {
 namespace {

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/csv_cell.hpp"
-#include "lib/core/distributions.hpp"
 #include "lib/core/json/json_fields.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/core/text.hpp"
-#include "lib/diagnose/fault_event_fields.hpp"
+#include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_kind.hpp"
 
 namespace faultline {

@@ -8,7 +8,7 @@
 #include "lib/cases/case_base.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
-#include "lib/fault/fault_words.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 namespace {

@@ -11,7 +11,6 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/fault/fault_kind.hpp"
-#include "lib/fault/fault_words.hpp"
 
 namespace faultline {
 namespace {

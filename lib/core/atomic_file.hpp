@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cctype>
 #include <cstddef>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "lib/core/error.hpp"
 #include "lib/core/files/temporary_file.hpp"
 
 namespace faultline {
@@ -37,5 +39,14 @@ void write_file(const std::string& path, std::string_view bytes);
 /// Returns the bytes. Throws Error(input) for a file that is missing, a directory, unreadable or longer than
 /// `most_bytes`, as is a device without end.
 std::string read_file(const std::string& path, std::size_t most_bytes = std::size_t{1} << 30);
+
+/// Throws Error(input) for a file that ends, without a line break, in a number: truncation may have cut off
+/// digits unnoticed. Any other truncated file does not parse.
+inline void refuse_open_number(const std::string& text, const std::string& path) {
+  if (text.empty() || !(std::isdigit(static_cast<unsigned char>(text.back())) || text.back() == '.')) return;
+  throw Error(ErrorCode::input, path,
+              "ends in a number without a line break and may be truncated: restore it, or end its last line "
+              "with a line break");
+}
 
 }  // namespace faultline

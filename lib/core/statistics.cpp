@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+
+#include "lib/core/elementary/elementary.hpp"
 
 namespace faultline {
 namespace {
@@ -35,6 +38,36 @@ double lower_quantile(std::vector<double> values, double share) {
 
 double nearest_rank_quantile(std::vector<double> values, double share) {
   return ranked(values, std::ceil(share * static_cast<double>(values.size())) - 1.0);
+}
+
+double normal_tail(double z) { return elementary::erfc(std::abs(z) / std::numbers::sqrt2); }
+
+/// Uses the recurrence over degrees of freedom, from 1 and 2 (Abramowitz and Stegun 26.4.8).
+double chi_square_tail(double x, int degrees) {
+  if (!(x > 0.0)) return 1.0;
+  const bool odd = degrees % 2 == 1;
+  double tail = odd ? normal_tail(std::sqrt(x)) : elementary::exp(-0.5 * x);
+  double log_term = -0.5 * x + (odd ? 0.5 * elementary::log(2.0 * x / std::numbers::pi) : 0.0);
+  for (int k = odd ? 3 : 4; k <= degrees; k += 2) {
+    log_term += odd && k == 3 ? 0.0 : elementary::log(x / (k - 2));
+    tail += elementary::exp(log_term);
+  }
+  return tail;
+}
+
+/// Uses the finite series (Abramowitz and Stegun 26.7.3 and 26.7.4).
+double student_tail(double t, int degrees) {
+  const double theta = elementary::atan(std::abs(t) / std::sqrt(degrees));
+  const auto [sine, cosine] = elementary::sin_cos(theta);
+  const double square = cosine * cosine;
+  const bool odd = degrees % 2 == 1;
+  double term = odd ? cosine : 1.0, sum = 0.0;
+  for (int k = odd ? 3 : 2; k <= degrees; k += 2) {
+    sum += term;
+    term *= square * (k - 1) / k;
+  }
+  const double inside = odd ? (theta + sine * sum) * 2.0 / std::numbers::pi : sine * sum;
+  return std::fmax(1.0 - inside, 0.0);
 }
 
 }  // namespace faultline

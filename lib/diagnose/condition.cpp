@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "lib/core/distributions.hpp"
 #include "lib/core/number_text.hpp"
+#include "lib/core/statistics.hpp"
 
 namespace faultline {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "lib/core/json/json_fields.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/diagnose/diagnosis.hpp"
 
@@ -42,6 +43,18 @@ std::string onset_words(const Fault& fault, double sample_period_s) {
   if (fault.run == 0) return onset;
   return onset + " (run " + std::to_string(fault.run) + ", " +
          time_text(fault.onset_s - fault.clock_offset_s, sample_period_s) + " on its clock)";
+}
+
+/// The joint of a fault without a joint is null. Reading throws Error(usage) for an unknown kind.
+void fields(auto& v, MaybeConst<FaultEvent> auto& event) {
+  v.named("kind", event.label.kind, fault_kind_from);
+  v.or_null("joint", event.label.joint);
+  v("onset_s", event.onset_s);
+  v("alarm_s", event.alarm_s);
+  v("end_s", event.end_s);
+  v("confidence", event.confidence);
+  v.unless_empty("run", event.run);
+  if (event.run > 0) v("clock_offset_s", event.clock_offset_s);
 }
 
 }  // namespace faultline

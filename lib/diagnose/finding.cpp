@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "lib/core/distributions.hpp"
 #include "lib/core/number_text.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/diagnose/decision.hpp"
 #include "lib/diagnose/least_size.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/fault/fault_kind.hpp"
-#include "lib/fault/fault_words.hpp"
 
 namespace faultline {
 namespace {

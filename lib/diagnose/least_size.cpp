@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "lib/core/number_text.hpp"
-#include "lib/fault/fault_words.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "lib/core/number_text.hpp"
 #include "lib/diagnose/least_size.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/fault/fault_kind.hpp"
-#include "lib/fault/fault_words.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {

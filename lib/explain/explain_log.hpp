@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -55,5 +56,11 @@ ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,
 
 /// Explains a healthy log, for evidence_limits(); empty if too little of it can be integrated.
 LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot);
+
+/// Returns the fault of a log that is known to begin at `onset_s` and to end at `end_s` (kNeverEnds for one
+/// that lasts): judges every kind at every joint with these times, without a search. Empty if no kind exceeds
+/// its limit. For logs with known truth, from which networks and cases learn.
+std::optional<ExplainedFault> explain_at(const UniformLog& log, const ExplainModel& model, double onset_s,
+                                         double end_s);
 
 }  // namespace faultline

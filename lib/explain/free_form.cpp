@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/explain/free_form.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <vector>

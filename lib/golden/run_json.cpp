@@ -5,7 +5,7 @@
 #include "lib/core/json/json_fields.hpp"
 #include "lib/core/json_values.hpp"
 #include "lib/core/text.hpp"
-#include "lib/diagnose/fault_event_fields.hpp"
+#include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/label_fields.hpp"
 #include "lib/golden/check.hpp"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/core/distributions.hpp"
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/core/statistics.hpp"
 
 namespace faultline {
 namespace {

@@ -11,10 +11,10 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/core/distributions.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/random.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/identify/physical_equations.hpp"
 
 namespace faultline {

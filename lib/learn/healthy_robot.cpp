@@ -10,7 +10,7 @@
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/fit_coarse_days.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 namespace {

@@ -13,7 +13,7 @@
 #include "lib/core/statistics.hpp"
 #include "lib/diagnose/decide_episode.hpp"
 #include "lib/diagnose/monitor/monitor.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {

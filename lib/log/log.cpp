@@ -4,8 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "lib/log/log_channels.hpp"
-
 namespace faultline {
 namespace {
 

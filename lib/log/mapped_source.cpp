@@ -12,7 +12,7 @@
 #include <unordered_set>
 
 #include "lib/core/error.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 #include "lib/log/time_axis.hpp"
 #include "lib/log/units.hpp"
 

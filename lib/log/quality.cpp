@@ -9,7 +9,7 @@
 
 #include "lib/core/statistics.hpp"
 #include "lib/log/channel_names.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 
 namespace faultline {
 namespace {

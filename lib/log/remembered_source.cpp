@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 
 namespace faultline {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/core/error.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 #include "lib/log/transformed/changed_source.hpp"
 
 namespace faultline {

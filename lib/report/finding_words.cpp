@@ -10,7 +10,7 @@
 #include "lib/core/text.hpp"
 #include "lib/diagnose/fault_event.hpp"
 #include "lib/diagnose/least_size.hpp"
-#include "lib/fault/fault_words.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 namespace {

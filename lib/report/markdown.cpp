@@ -6,7 +6,7 @@
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/diagnose/fault_event.hpp"
-#include "lib/fault/fault_words.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/report/finding_words.hpp"
 #include "lib/report/text.hpp"
 

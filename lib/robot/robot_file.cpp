@@ -10,7 +10,6 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/files/open_ending.hpp"
 #include "lib/robot/dh/denavit_hartenberg.hpp"
 #include "lib/robot/nearest_word.hpp"
 #include "lib/robot/robot.hpp"

@@ -7,8 +7,7 @@
 #include <cmath>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/log/log_channels.hpp"
-#include "lib/simulate/clock.hpp"
+#include "lib/log/log.hpp"
 #include "lib/simulate/joint_list.hpp"
 
 namespace faultline {

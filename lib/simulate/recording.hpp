@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "lib/core/random.hpp"
@@ -32,5 +34,23 @@ void check_recording(int joints, double sample_period_s, const RecordingSpec& sp
 /// below 0; the first row keeps its measured velocity, and the torque of the first row also stands for rows
 /// before the log.
 Log recorded(Log exact, const RecordingSpec& spec, double sample_period_s, Random random);
+
+/// Multiples of a period. For periods of whole microseconds, returns the doubles nearest to the decimal
+/// times, so that a log has 3.953 and not 3.9530000000000003.
+class Clock {
+ public:
+  explicit Clock(double period_s) : period_s_(period_s) {
+    const double micro = period_s * 1e6;
+    if (std::round(micro) >= 1.0 && std::abs(micro - std::round(micro)) < 1e-6) micro_ = std::round(micro);
+  }
+  double at(std::int64_t tick) const {
+    const auto k = static_cast<double>(tick);
+    return micro_ > 0.0 ? k * micro_ / 1e6 : k * period_s_;
+  }
+
+ private:
+  double period_s_;
+  double micro_ = 0.0;
+};
 
 }  // namespace faultline

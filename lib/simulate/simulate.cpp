@@ -11,8 +11,8 @@
 #include "lib/core/random.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/chain.hpp"
-#include "lib/simulate/clock.hpp"
 #include "lib/simulate/joint_list.hpp"
+#include "lib/simulate/recording.hpp"
 
 namespace faultline {
 namespace {

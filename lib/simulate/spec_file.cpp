@@ -11,7 +11,6 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/csv_cell.hpp"
 #include "lib/core/error.hpp"
-#include "lib/core/files/open_ending.hpp"
 #include "lib/core/random.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/nearest_word.hpp"

@@ -8,7 +8,7 @@
 #include "lib/balance/measured_residual.hpp"
 #include "lib/core/error.hpp"
 #include "lib/identify/parameter_space.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 
 namespace faultline {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include <ctime>
 
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/neural/mlp.hpp"
 #include "lib/neural/rbfn.hpp"
 #include "lib/residual/learn_residual.hpp"

@@ -9,7 +9,7 @@
 
 #include "lib/classify/fault_criterion.hpp"
 #include "lib/core/error.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/residual/learn_residual.hpp"
 #include "tests/support/bench_motion.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/core/distributions.hpp"
-
 #include <gtest/gtest.h>
+
+#include "lib/core/statistics.hpp"
 
 namespace faultline {
 namespace {

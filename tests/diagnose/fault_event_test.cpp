@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
-#include "lib/diagnose/fault_event_fields.hpp"
 
 namespace faultline {
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/diagnose/precedents.hpp"
-
 #include <gtest/gtest.h>
 
+#include "lib/diagnose/decide_episode.hpp"
 #include "tests/diagnose/hand_made_episode.hpp"
 
 namespace faultline {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/explain_at.hpp"
-
 #include <gtest/gtest.h>
 
+#include "lib/explain/explain_log.hpp"
 #include "tests/explain/explained_scara.hpp"
 
 namespace faultline {

@@ -7,7 +7,7 @@
 
 #include "lib/explain/log_fit.hpp"
 #include "lib/identify/days/fit_days.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 
 namespace faultline::testing {

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <set>
 
-#include "lib/fault/fault_words.hpp"
-
 namespace faultline {
 namespace {
 

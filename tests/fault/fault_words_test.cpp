@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "lib/fault/fault_words.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 namespace {

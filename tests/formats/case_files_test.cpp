@@ -9,7 +9,7 @@
 
 #include "formats/open_log.hpp"
 #include "lib/core/error.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 
 namespace faultline {
 namespace {

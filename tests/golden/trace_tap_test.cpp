@@ -8,7 +8,7 @@
 
 #include "formats/open_log.hpp"
 #include "lib/golden/golden_folder.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/residual/residuals.hpp"
 
 namespace faultline {

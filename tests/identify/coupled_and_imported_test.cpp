@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/log/transformed/coupled_source.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/urdf/urdf.hpp"

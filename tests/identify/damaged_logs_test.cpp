@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 
 namespace faultline {

@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "tests/identify/shared_data.hpp"
 
 namespace faultline {

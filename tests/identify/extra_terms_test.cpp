@@ -7,7 +7,7 @@
 
 #include "lib/identify/identification_json.hpp"
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 #include "tests/identify/identified_scara.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "lib/core/random.hpp"
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "lib/simulate/simulate.hpp"
 #include "tests/robot/assorted_chains.hpp"

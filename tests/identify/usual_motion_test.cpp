@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "lib/core/error.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/robot/robot.hpp"
 
 namespace faultline {

@@ -12,7 +12,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 
 namespace faultline {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lib/learn/learn.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/simulate/simulate.hpp"
 
 namespace faultline {

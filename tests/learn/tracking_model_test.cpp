@@ -6,7 +6,7 @@
 #include "lib/core/error.hpp"
 #include "lib/diagnose/diagnose.hpp"
 #include "lib/learn/learn.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/report/text.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/residual/relation/stepped_joint.hpp"

@@ -5,7 +5,7 @@
 
 #include "lib/core/error.hpp"
 #include "lib/log/derived_velocity.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/log/resample.hpp"
 
 namespace faultline {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/log_channels.hpp"
-
 #include <gtest/gtest.h>
+
+#include "lib/log/log.hpp"
 
 namespace faultline {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "formats/open_log.hpp"
 #include "lib/core/error.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "tests/log/log_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 

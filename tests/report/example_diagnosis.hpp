@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "lib/diagnose/verdict.hpp"
-#include "lib/fault/fault_words.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 

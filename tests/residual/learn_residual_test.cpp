@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lib/core/error.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/residual/physics_step.hpp"
 #include "lib/residual/residuals.hpp"
 #include "tests/support/bench_motion.hpp"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/residual/learn_residual.hpp"
 #include "lib/residual/residuals.hpp"
 #include "tests/support/bench_motion.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "lib/core/error.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/residual/learn_residual.hpp"
 #include "tests/support/bench_motion.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "formats/open_log.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/simulate/spec_file.hpp"
 

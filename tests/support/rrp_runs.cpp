@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/batch/page/index_page.hpp"
-#include "lib/core/distributions.hpp"
 #include "lib/core/outgoing/json_text.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/core/text.hpp"
-#include "lib/fault/fault_words.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 namespace {

@@ -9,7 +9,7 @@
 #include "lib/batch/batch_row.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
-#include "lib/fault/fault_words.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/report/html/elements.hpp"
 
 namespace faultline {

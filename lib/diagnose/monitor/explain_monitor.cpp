@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/diagnose/monitor/log_tally.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/log/time_axis.hpp"
 
 namespace faultline {

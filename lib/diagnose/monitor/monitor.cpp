@@ -12,7 +12,7 @@
 #include "lib/diagnose/monitor/log_tally.hpp"
 #include "lib/diagnose/monitor/monitored_log.hpp"
 #include "lib/diagnose/relation_findings.hpp"
-#include "lib/explain/explain_at.hpp"
+#include "lib/explain/explain_log.hpp"
 #include "lib/log/log.hpp"
 #include "lib/log/transformed/changed_source.hpp"
 #include "lib/log/transformed/empty_rows_source.hpp"

@@ -10,7 +10,7 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/error.hpp"
 #include "lib/identify/motion/stretch.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {

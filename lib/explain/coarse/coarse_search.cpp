@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/explain/coarse/coarse_search.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/explain/search/white_search.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/days/day_arrow.hpp"
 
+#include <Eigen/Cholesky>
+
 namespace faultline {
 
 using Eigen::MatrixXd;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/identify/days/fit_days.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

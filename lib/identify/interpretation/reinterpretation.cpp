@@ -15,7 +15,7 @@
 #include "lib/identify/gathered.hpp"
 #include "lib/identify/parameter_space.hpp"
 #include "lib/identify/weak_form/weak_form.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/plausibility/column_interpretation.hpp"
 
 namespace faultline {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/core/distributions.hpp"
 #include "lib/core/matrix/decompositions.hpp"
+#include "lib/core/statistics.hpp"
 #include "lib/identify/parameter_space.hpp"
 #include "lib/identify/torque_fit.hpp"
 #include "lib/identify/weak_form/weak_form.hpp"

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 #include "lib/log/recorder/measured_rows.hpp"
 #include "lib/log/recorder/stopped_columns.hpp"
 #include "lib/log/transformed/changed_source.hpp"

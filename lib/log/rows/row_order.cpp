@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "lib/core/statistics.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 #include "lib/log/time_axis.hpp"
 
 namespace faultline {

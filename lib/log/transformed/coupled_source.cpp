@@ -9,7 +9,7 @@
 #include "lib/core/error.hpp"
 #include "lib/log/channel_names.hpp"
 #include "lib/log/column_matching.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 #include "lib/log/transformed/changed_source.hpp"
 
 namespace faultline {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 #include "lib/log/time_axis.hpp"
 
 namespace faultline {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 #include "lib/log/time_axis.hpp"
 
 namespace faultline {

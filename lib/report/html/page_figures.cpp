@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/fault/fault_words.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 #include "lib/robot/chain.hpp"
 #include "lib/robot/robot.hpp"
 

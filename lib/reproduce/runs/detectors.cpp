@@ -7,7 +7,7 @@
 #include "lib/diagnose/decide_episode.hpp"
 #include "lib/diagnose/monitor/monitor.hpp"
 #include "lib/identify/days/fit_coarse_days.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/reproduce/protocol/protocol.hpp"
 #include "lib/residual/residuals.hpp"
 

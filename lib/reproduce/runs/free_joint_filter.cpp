@@ -10,7 +10,7 @@
 
 #include "lib/balance/one_step/innovations.hpp"
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "lib/core/golden_section.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 #include "lib/residual/relation/relation_fit.hpp"
 
 namespace faultline {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ranges>
 
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 namespace faultline {
 namespace {
 

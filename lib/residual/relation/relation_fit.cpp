@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/core/distributions.hpp"
 #include "lib/core/matrix/decompositions.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/core/statistics.hpp"
+#include "lib/log/log.hpp"
 #include "lib/residual/relation/relation_residual.hpp"
 
 namespace faultline {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 
 namespace faultline {
 namespace {

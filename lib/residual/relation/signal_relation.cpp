@@ -12,7 +12,7 @@
 #include "lib/core/enum_named.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/json/json_fields.hpp"
-#include "lib/log/log_channels.hpp"
+#include "lib/log/log.hpp"
 
 namespace faultline {
 namespace {

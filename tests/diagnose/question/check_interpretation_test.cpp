@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "tests/support/rrp_runs.hpp"
 
 namespace faultline {

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "lib/diagnose/question/check_interpretation.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "tests/support/rrp_runs.hpp"
 
 namespace faultline {

@@ -9,7 +9,7 @@
 
 #include "lib/explain/explain_log.hpp"
 #include "lib/identify/days/fit_coarse_days.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 

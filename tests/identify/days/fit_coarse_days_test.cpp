@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "lib/core/random.hpp"
 #include "lib/identify/days/draft_rows.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "tests/explain/explained_scara.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "lib/core/atomic_file.hpp"
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/report/identification_text.hpp"
 #include "lib/robot/robot_file.hpp"
 #include "lib/simulate/spec_file.hpp"

@@ -7,7 +7,7 @@
 
 #include "lib/core/random.hpp"
 #include "lib/identify/identify.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/report/identification_text.hpp"
 #include "tests/identify/closed_form_scara.hpp"
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "lib/core/random.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 namespace {

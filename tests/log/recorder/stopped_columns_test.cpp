@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "lib/core/random.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 namespace {

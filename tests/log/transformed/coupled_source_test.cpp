@@ -7,8 +7,8 @@
 
 #include "lib/core/error.hpp"
 #include "lib/core/random.hpp"
-#include "lib/log/log_channels.hpp"
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log.hpp"
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 
 namespace faultline {
 namespace {

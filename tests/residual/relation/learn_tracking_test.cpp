@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/residual/relation/learn_relations.hpp"
 #include "lib/residual/relation/relation_detector.hpp"
 #include "tests/residual/relation/stepped_joint.hpp"

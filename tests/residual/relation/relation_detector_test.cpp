@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/log/memory_source.hpp"
+#include "lib/log/log_source.hpp"
 #include "lib/residual/relation/learn_relations.hpp"
 #include "tests/residual/relation/driven_joint.hpp"
 
