@@ -189,7 +189,7 @@ Joint ParameterSpace::joint_of(int p) const {
   if (p < rigid()) return base[p].joint;
   if (p < extra_begin()) return Joint::at((p - rigid()) % joints());
   if (p < timing()) return extra_at(p).joint;
-  return p == timing() ? Joint() : Joint::at(p - timing() - 1);
+  return p == timing() ? 1_joint : Joint::at(p - timing() - 1);
 }
 
 std::string ParameterSpace::name(int p) const {

@@ -20,7 +20,7 @@ struct BaseParameter {
   std::string meaning;    ///< its sum, such as "I2 + 0.09 m3" at the lengths of `chain`
   bool is_mass = false;   ///< the mass of a link, as m3 of a SCARA
   bool is_rotor = false;  ///< inertia of a rotor, which acts on its own joint alone
-  Joint joint{};          ///< of a rotor
+  Joint joint = 1_joint;  ///< of a rotor; the first one for other parameters
 };
 
 /// The parameters that motion and torque of a robot depend on, in this order: base parameters, then for every
@@ -50,7 +50,7 @@ struct ParameterSpace {
   /// Number of parameters in which torques are linear: all before the widths.
   int linear() const { return timing() + 1; }
 
-  /// Returns the joint of a parameter; none for the timing and base parameters other than rotors.
+  /// Returns the joint of a parameter; the first one for the timing and base parameters other than rotors.
   Joint joint_of(int parameter) const;
   bool is_extra(int parameter) const { return parameter >= extra_begin() && parameter < timing(); }
   /// Returns the extra term of a parameter that is_extra().

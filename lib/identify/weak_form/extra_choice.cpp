@@ -30,8 +30,8 @@ struct TermGroup {
   std::vector<Joint> joints;  ///< those that they act on
   LeastGain worth{};
   bool quick = false;
-  double promise = 0.0;  ///< gain by the group alone
-  Joint joint{};         ///< that gains most
+  double promise = 0.0;   ///< gain by the group alone
+  Joint joint = 1_joint;  ///< that gains most; the first one if none gains
   HeldOutError without{}, with{};
 };
 

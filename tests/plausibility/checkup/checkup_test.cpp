@@ -46,7 +46,7 @@ CheckedLog checked(const Log& log, int segment_rows = 1 << 20) {
 }
 
 const ChannelCourse::Result& course(const CheckedLog& log, Quantity quantity) {
-  return log.checkup.find({quantity, 1})->course;
+  return log.checkup.find({quantity, 1_joint})->course;
 }
 
 /// The values some rows later.

@@ -19,7 +19,7 @@ TEST(FreeJointFilter, FindsAndNamesEachFreeJointWithoutAnEarlierAlarm) {
                                SeedUse::run_tuning);
   for (const ExperimentRun& run : runs) {
     const auto alarms = free_joint_alarms(robot, run.log, {14.0, 1e9}, 0.6);
-    ASSERT_FALSE(alarms[0].empty()) << run.fault.joint;
+    ASSERT_FALSE(alarms[0].empty()) << run.fault.joint.number();
     EXPECT_GE(alarms[0][0].time_s, run.onset_s);
     EXPECT_LT(alarms[0][0].time_s, run.onset_s + 1.0);
     EXPECT_EQ(alarms[0][0].label, run.fault);
