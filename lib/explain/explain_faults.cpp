@@ -218,7 +218,7 @@ std::vector<ExplainedFault> best_faults(const GivenLog& given, const std::vector
     if (first.claim.kind == FaultKind::unknown || first.evidence < kFirstShare * alone.evidence) continue;
     std::vector<FaultClaim> more = known;
     std::vector<ExplainedFault> together = {first};
-    double shrinking = 0.0;
+    double shrinking = 0.0;  // of all but the last: no further fault takes it away
     while (together.size() < kMostTogether) {
       more.push_back(together.back().claim);
       shrinking += together.back().shrinking;
