@@ -298,7 +298,6 @@ double misfit(const LogFit& fit, const FreeForm& change, const FaultHypothesis& 
 LogExplanation with_evidence(const LogFit& fit, LogExplanation e) {
   for (FaultHypothesis& h : e.best) {
     h.course = course_of(fit, h.onset_s, h.at_onset, fit.residual_without_fault(h.fit), h.fit.left);
-    h.shrinking = price_of_shrinking(fit, h, h.fit);
     h.misfit = misfit(fit, e.free_form, h);
   }
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

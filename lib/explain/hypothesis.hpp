@@ -39,12 +39,14 @@ struct FaultHypothesis : FaultClaim {
   double gain = -std::numeric_limits<double>::infinity();
   /// Part of `gain` that comes from the measurements at the onset, not from the torque-balance rows.
   double at_onset = 0.0;
+  /// Price that `gain` contains by price_of_shrinking(): `misfit` contains it, too, and no further fault
+  /// takes it away.
+  double shrinking = 0.0;
   Explanation fit{};
 
   // Of the best hypothesis of each kind and joint alone.
   EvidenceCourse course{};  ///< from the onset on
   double misfit = 0.0;      ///< nats by which a free form explains the log better
-  double shrinking = 0.0;   ///< price_of_shrinking(): a part of `misfit` that no further fault takes away
 };
 
 inline constexpr double kUsualBlow_s = 0.05;   ///< median of the length of a collision

@@ -213,9 +213,12 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
   Explanation e = fit.explain_with_piece(fit.residual(), columns, fault.starts, claim.onset_s);
   claim.kind = fault.kind;
   claim.grows = fault.columns.grow;
-  const double price = price_of_size(fit, claim, e) + price_of_shrinking(fit, claim, e);
+  const double shrinking = price_of_shrinking(fit, claim, e),
+               price = price_of_size(fit, claim, e) + shrinking;
   if (fault.kind == FaultKind::torque_loss && e.size[0] > kFreeShare) claim.kind = FaultKind::free_swinging;
-  return hypothesis(fit, claim, std::move(e), price);
+  FaultHypothesis out = hypothesis(fit, claim, std::move(e), price);
+  out.shrinking = shrinking;
+  return out;
 }
 
 /// Returns the columns of a force on one joint (from 0) among those of a force on all joints.
