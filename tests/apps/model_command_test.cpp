@@ -155,9 +155,6 @@ TEST_F(ModelCommand, LearningIsRefusedIfItWouldLoseCases) {
 }
 
 TEST_F(ModelCommand, AnEndlessDeviceIsRefusedWithinLittleMemory) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the address sanitizer needs more address space than the limit leaves";
-#endif
   constexpr long long kMemory = 600LL << 20;
   const ProgramRun run =
       run_program({"diagnose", logs_[0], "--model", "/dev/zero"}, {.memory_limit = kMemory});

@@ -24,7 +24,11 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
+/// Limits a resource; the address space not under the address sanitizer, which takes terabytes of it.
 void limit(__rlimit_resource resource, long long bytes) {
+#ifdef __SANITIZE_ADDRESS__
+  if (resource == RLIMIT_AS) return;
+#endif
   if (bytes < 0) return;
   const rlimit both{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
   ::setrlimit(resource, &both);

@@ -18,7 +18,8 @@ struct RunOptions {
   std::string stdout_path{};               ///< write standard output there instead of capturing it
   std::vector<std::string> environment{};  ///< NAME=value, added to the present one
   long long file_size_limit = -1;          ///< bytes a file may grow to (RLIMIT_FSIZE); -1 = no limit
-  long long memory_limit = -1;             ///< bytes of address space (RLIMIT_AS); -1 = no limit
+  /// Bytes of address space (RLIMIT_AS); -1 = no limit. None is set under the address sanitizer.
+  long long memory_limit = -1;
 };
 
 /// Runs the built program `faultline` with these arguments and waits for its end.
