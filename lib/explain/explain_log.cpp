@@ -122,38 +122,6 @@ ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& m
   return out;
 }
 
-}  // namespace
-
-UniformLog averaged_as(const UniformLog& log, const RobotRows& robot) {
-  const auto* model = std::get_if<BalanceModel>(&robot);
-  return model == nullptr ? log : averaged(log, model->setting.averaged, model->setting.torque_is_held);
-}
-
-bool can_explain(const UniformLog& log, const RobotRows& robot) {
-  if (std::holds_alternative<OneStepModel>(robot)) return log.rows() >= kFewestCoarse;
-  return log.rows() * log.period_s >= kShortest_s;
-}
-
-ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,
-                               const std::vector<FaultClaim>& lasting, const SignalStretches& signals) {
-  if (const auto* coarse = std::get_if<OneStepModel>(&model.robot))
-    return explain_at_coarse_rate(log, *coarse, model.limits, lasting, signals);
-  return explain_faults(averaged_as(log, model.robot), std::get<BalanceModel>(model.robot), model.limits,
-                        lasting, signals);
-}
-
-LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot) {
-  if (const auto* coarse = std::get_if<OneStepModel>(&robot)) {
-    const std::optional<CoarseLog> followed = followed_log(log, *coarse);
-    return followed ? explain_coarse(*followed) : LogExplanation{};
-  }
-  return explain_with_own_noise(averaged_as(log, robot), std::get<BalanceModel>(robot), {},
-                                [](const LogFit& fit) { return explain_log(fit); })
-      .explanation;
-}
-
-namespace {
-
 /// Times of a fault. A collision always has an end; a stuck encoder and a sensor bias begin with a sample.
 struct FaultTimes {
   double onset_s = 0.0, end_s = kNeverEnds;
@@ -214,6 +182,34 @@ LogExplanation judged_at(const CoarseLog& log, const FaultTimes& at) {
 }
 
 }  // namespace
+
+UniformLog averaged_as(const UniformLog& log, const RobotRows& robot) {
+  const auto* model = std::get_if<BalanceModel>(&robot);
+  return model == nullptr ? log : averaged(log, model->setting.averaged, model->setting.torque_is_held);
+}
+
+bool can_explain(const UniformLog& log, const RobotRows& robot) {
+  if (std::holds_alternative<OneStepModel>(robot)) return log.rows() >= kFewestCoarse;
+  return log.rows() * log.period_s >= kShortest_s;
+}
+
+ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,
+                               const std::vector<FaultClaim>& lasting, const SignalStretches& signals) {
+  if (const auto* coarse = std::get_if<OneStepModel>(&model.robot))
+    return explain_at_coarse_rate(log, *coarse, model.limits, lasting, signals);
+  return explain_faults(averaged_as(log, model.robot), std::get<BalanceModel>(model.robot), model.limits,
+                        lasting, signals);
+}
+
+LogExplanation explain_healthy(const UniformLog& log, const RobotRows& robot) {
+  if (const auto* coarse = std::get_if<OneStepModel>(&robot)) {
+    const std::optional<CoarseLog> followed = followed_log(log, *coarse);
+    return followed ? explain_coarse(*followed) : LogExplanation{};
+  }
+  return explain_with_own_noise(averaged_as(log, robot), std::get<BalanceModel>(robot), {},
+                                [](const LogFit& fit) { return explain_log(fit); })
+      .explanation;
+}
 
 std::optional<ExplainedFault> explain_at(const UniformLog& log, const ExplainModel& model, double onset_s,
                                          double end_s) {
