@@ -17,12 +17,16 @@ constexpr std::string_view kParquetMagic = "PAR1";
 
 }  // namespace
 
-std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed) {
+std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed, const RecordingChoice& choice) {
   auto bytes = std::make_unique<ByteSource>(path, hashed);
   if (bytes->head().empty())
     throw Error(ErrorCode::input, path, "is empty; a log has a header and at least one row");
   for (const LogFormat& format : log_formats())
-    if (format.matches(bytes->head())) return format.open(std::move(bytes));
+    if (format.matches(bytes->head())) {
+      auto reader = format.open(std::move(bytes));
+      reader->choose(choice);
+      return reader;
+    }
   if (bytes->head().starts_with(kParquetMagic))
     throw Error(ErrorCode::input, path,
                 "is a Parquet file, which cannot be read directly; convert it, in Python with "
@@ -36,16 +40,11 @@ std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelectio
                                       const RecordingChoice& choice) {
   // The hash of a log of several files is computed from the hashes of all files.
   const bool all_hashed = parts.hashed || !parts.then.empty() || !parts.join.empty();
-  const auto open_chosen = [&](const std::string& file) {
-    auto reader = open_raw(file, all_hashed);
-    reader->choose(choice);
-    return reader;
-  };
-  auto first = open_chosen(path);
+  auto first = open_raw(path, all_hashed, choice);
   if (!parts.then.empty()) {
     std::vector<std::unique_ptr<RawReader>> files;
     files.push_back(std::move(first));
-    for (const std::string& file : parts.then) files.push_back(open_chosen(file));
+    for (const std::string& file : parts.then) files.push_back(open_raw(file, all_hashed, choice));
     first = continue_files(std::move(files));
   }
   if (parts.join.empty()) return first;

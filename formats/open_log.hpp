@@ -34,8 +34,10 @@ struct OpenLogOptions {
 /// Error(input) when the file is missing, a directory, empty, of no known format, or has no time or position.
 std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOptions& options = {});
 
-/// Opens the columns of a file before any channel mapping; also for files that are no joint log.
-std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed = true);
+/// Opens the columns of a file before any channel mapping; also for files that are no joint log. `choice`
+/// says which messages of a recording are the log.
+std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed = true,
+                                    const RecordingChoice& choice = {});
 
 /// Does the same for a log of several files: `choice` applies to each of them.
 std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,

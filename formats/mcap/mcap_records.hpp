@@ -33,8 +33,11 @@ class McapTopics {
   void add_schema(std::string_view content) {
     ByteCursor record(content);
     const auto id = record.take<std::uint16_t>();
-    const std::string_view name = record.text();
-    if (record.ok()) numbers().type_of_schema.emplace(id, name.substr(0, kLongestTopicText));
+    const std::string_view name = record.text(), language = record.text(), definition = record.text();
+    const bool is_ros = record.ok() && (language == "ros2msg" || language == "ros1msg");
+    if (record.ok())
+      numbers().schemas.emplace(id, Schema{std::string(name.substr(0, kLongestTopicText)),
+                                           std::string(is_ros ? definition : std::string_view())});
   }
 
   /// Does the same for a channel record.
@@ -43,10 +46,10 @@ class McapTopics {
     const auto id = record.take<std::uint16_t>(), schema = record.take<std::uint16_t>();
     const std::string_view name = record.text(), encoding = record.text();
     if (!record.ok() || numbers().topic_of_channel.count(id)) return;
-    const auto type = numbers().type_of_schema.find(schema);
-    const bool known = type != numbers().type_of_schema.end();
+    const auto known = numbers().schemas.find(schema);
+    const Schema stated = known == numbers().schemas.end() ? Schema{} : known->second;
     numbers().topic_of_channel.emplace(
-        id, topics_.add({std::string(name), known ? type->second : "", std::string(encoding)}));
+        id, topics_.add({std::string(name), stated.type, std::string(encoding), stated.definition}));
   }
 
   /// Returns the topic of a channel id; -1 for an unknown one.
@@ -56,9 +59,12 @@ class McapTopics {
   }
 
  private:
+  struct Schema {
+    std::string type, definition;
+  };
   /// Types and topics of one recording, by their numbers.
   struct Numbers {
-    std::map<std::uint16_t, std::string> type_of_schema;
+    std::map<std::uint16_t, Schema> schemas;
     std::map<std::uint16_t, int> topic_of_channel;
   };
   const Numbers& numbers() const { return recordings_[recording_]; }

@@ -32,22 +32,28 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 /// True for a topic of commands to the robot.
-bool is_command(const std::string& topic) {
-  ParsedName reading = parse_name("position/" + topic);
-  return reading.quantity == Quantity::q_ref;
+bool is_command(const Topic& topic) {
+  if (topic.role != TopicRole::unknown) return topic.role == TopicRole::reference;
+  return parse_name("position/" + topic.name).quantity == Quantity::q_ref;
+}
+
+/// True for the topic that the robot file names, and for those of joint states made of its messages.
+bool is_chosen(const std::string& topic, const std::string& chosen) {
+  return chosen.empty() || topic == chosen || topic.starts_with(chosen + "/");
 }
 
 int choose_main(const std::vector<Topic>& topics, const std::vector<JointStream>& streams,
                 const RecordingChoice& choice, const std::string& path) {
   const auto name_of = [&](const JointStream& stream) { return topics[stream.topic].name; };
   const auto rank = [&](const JointStream& stream) {
-    return std::tuple(stream.has[0], name_of(stream) != kExtraTopic, !is_command(name_of(stream)),
-                      name_of(stream).find("joint_states") != std::string::npos, stream.has[2],
+    const Topic& topic = topics[stream.topic];
+    return std::tuple(stream.has[0], topic.name != kExtraTopic, topic.role != TopicRole::fields,
+                      !is_command(topic), topic.name.find("joint_states") != std::string::npos, stream.has[2],
                       stream.messages);
   };
   int best = -1;
   for (int s = 0; s < std::ssize(streams); ++s) {
-    if (!choice.topic.empty() && name_of(streams[s]) != choice.topic) continue;
+    if (!is_chosen(name_of(streams[s]), choice.topic)) continue;
     if (best < 0 || rank(streams[s]) > rank(streams[best])) best = s;
   }
   if (best >= 0) return best;
@@ -116,8 +122,10 @@ class Layouter {
     const JointStream& main = streams_[layout_.main];
     layout_.of_stream.resize(streams_.size());
     add_time(choice, main);
-    const std::vector<int> order = order_joints(main, choice, path, layout_.issues);
-    add_stream(layout_.main, kMeasured, order);
+    const bool are_fields = topics_[main.topic].role == TopicRole::fields;
+    const std::vector<int> order =
+        are_fields ? std::vector<int>{} : order_joints(main, choice, path, layout_.issues);
+    add_stream(layout_.main, has_commanded_torque(order) ? kMeasuredBeside : kMeasured, order);
     for (int s = 0; s < std::ssize(streams_); ++s) {
       layout_.is_rival.push_back(s != layout_.main && is_rival(streams_[s], main));
       if (s == layout_.main) continue;
@@ -151,15 +159,18 @@ class Layouter {
   /// alone are tau_meas, other streams have no meaning.
   void add_other(int s, const std::vector<int>& order) {
     const JointStream& stream = streams_[s];
-    const std::string& topic = topics_[stream.topic].name;
-    if (is_computed(topic)) return add_nothing(s);
+    const Topic& topic = topics_[stream.topic];
+    if (is_computed(topic.name)) return add_nothing(s);
     const std::vector<int> same = same_joints(stream, order);
     const bool torques = stream.has == std::array{false, false, true};
     if (!same.empty() && is_command(topic) && !has_reference_) {
       has_reference_ = true;
       add_stream(s, kCommanded, same);
-    } else if (!same.empty() && torques && parse_name("torque/" + topic).quantity == Quantity::tau_meas &&
-               !has_measured_) {
+    } else if (!same.empty() && topic.role == TopicRole::commanded_torque && !has_command_) {
+      has_command_ = true;
+      add_stream(s, kMeasured, same);
+    } else if (!same.empty() && torques && !has_measured_ &&
+               parse_name("torque/" + topic.name).quantity == Quantity::tau_meas) {
       has_measured_ = true;
       add_stream(s, kMeasuredBeside, same);
     } else {
@@ -169,9 +180,19 @@ class Layouter {
 
   /// True for positions, not commanded, of joints on the same topic or with some of the same names.
   bool is_rival(const JointStream& stream, const JointStream& main) const {
-    const std::string& topic = topics_[stream.topic].name;
-    if (!stream.has[0] || is_command(topic) || is_computed(topic) || topic == kExtraTopic) return false;
+    const Topic& topic = topics_[stream.topic];
+    if (!stream.has[0] || is_command(topic) || is_computed(topic.name) || topic.name == kExtraTopic ||
+        topic.role == TopicRole::fields)
+      return false;
     return stream.topic == main.topic || share_a_joint(stream.joints, main.joints);
+  }
+
+  /// True when the torques that a controller commands to the joints of the log are a stream of their own, so
+  /// that the efforts of the main stream are measured ones.
+  bool has_commanded_torque(const std::vector<int>& order) const {
+    return std::any_of(streams_.begin(), streams_.end(), [&](const JointStream& stream) {
+      return topics_[stream.topic].role == TopicRole::commanded_torque && !same_joints(stream, order).empty();
+    });
   }
 
   void leave_out(int s) {
@@ -228,6 +249,7 @@ class Layouter {
   /// Names a column by topic, joint and array; extra channels written by this program get their own name.
   RawColumn column_of(const JointStream& stream, int j, const char* array) const {
     const std::string &topic = topics_[stream.topic].name, &name = stream.joints[j];
+    if (topics_[stream.topic].role == TopicRole::fields) return {topic + "/" + name, ""};
     if (topic != kExtraTopic) return {topic + "/" + name + "/" + array, ""};
     const NameAndUnit parts = split_unit(name);
     return {parts.name, parts.unit};
@@ -236,7 +258,7 @@ class Layouter {
   const std::vector<Topic>& topics_;
   const std::vector<JointStream>& streams_;
   JointLayout layout_;
-  bool has_reference_ = false, has_measured_ = false;
+  bool has_reference_ = false, has_measured_ = false, has_command_ = false;
   int left_out_ = 0;  ///< streams that would exceed the number of columns
   std::string first_left_out_;
 };

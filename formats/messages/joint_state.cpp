@@ -4,8 +4,10 @@
 #include <bit>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "formats/messages/joint_streams.hpp"
+#include "formats/messages/message_bytes.hpp"
 #include "lib/log/raw_reader.hpp"
 
 namespace faultline {
@@ -20,125 +22,50 @@ constexpr double kStateMostSeconds = 9e9;
 /// Largest message in bytes; parsed, it takes many times as much memory.
 constexpr std::size_t kLongestJson = 1 << 20;
 
-/// Layout of the members of a message.
-struct Wire {
-  std::size_t begin = 0;             ///< byte from which alignment counts
-  std::size_t word_alignment = 1;    ///< of lengths
-  std::size_t double_alignment = 1;  ///< of the numbers of an array
-  bool swapped = false;              ///< big-endian
-  bool sequence_number = false;      ///< before the stamp
-  bool ends_with_nul = false;        ///< texts
-};
-
-/// Takes the members of a message in their order; `ok` becomes false at the end of its bytes.
-class Members {
- public:
-  Members(std::string_view bytes, const Wire& wire) : bytes_(bytes), wire_(wire), at_(wire.begin) {}
-
-  std::uint32_t word() {
-    align(wire_.word_alignment);
-    std::uint32_t value = 0;
-    if (!has(sizeof value)) return 0;
-    std::memcpy(&value, bytes_.data() + at_, sizeof value);
-    at_ += sizeof value;
-    return wire_.swapped ? __builtin_bswap32(value) : value;
-  }
-
-  std::string_view text() {
-    const std::uint32_t size = word();
-    if (!has(size)) return {};
-    const std::string_view all = bytes_.substr(at_, size);
-    at_ += size;
-    return wire_.ends_with_nul && !all.empty() && all.back() == '\0' ? all.substr(0, all.size() - 1) : all;
-  }
-
-  PackedNumbers numbers() {
-    const std::size_t count = word();
-    if (count == 0) return {};
-    align(wire_.double_alignment);
-    if (!ok || count > (bytes_.size() - at_) / kDoubleBytes) return ok = false, PackedNumbers{};
-    const PackedNumbers found{bytes_.data() + at_, count, wire_.swapped};
-    at_ += count * kDoubleBytes;
-    return found;
-  }
-
-  /// Skips `same` if it is at this position; else returns false.
-  bool passes(std::string_view same) {
-    if (same.empty() || bytes_.substr(at_, same.size()) != same) return false;
-    at_ += same.size();
-    return true;
-  }
-
-  void align(std::size_t to) { at_ = std::min(bytes_.size(), at_ + (to - (at_ - wire_.begin) % to) % to); }
-  std::size_t position() const { return at_; }
-
-  bool ok = true;
-
- private:
-  bool has(std::size_t size) { return ok = ok && size <= bytes_.size() - at_; }
-
-  std::string_view bytes_;
-  Wire wire_;
-  std::size_t at_;
-};
-
 /// Decodes messages of ROS 1, and those of ROS 2 after four bytes that give their byte order.
 class RosDecoder : public JointStateDecoder {
  public:
   explicit RosDecoder(bool cdr) : cdr_(cdr) {}
 
   bool decode(std::string_view bytes, JointMessage& state) override {
-    Wire wire;
-    if (!wire_of(bytes, wire)) return false;
-    Members members(bytes, wire);
-    if (wire.sequence_number) members.word();
+    const std::optional<MessageWire> wire = cdr_ ? cdr_wire(bytes) : ros1_wire();
+    if (!wire) return false;
+    MessageBytes members(bytes, *wire);
+    if (!cdr_) members.number<std::uint32_t>();  // the number of the message
     // Seconds are signed in ROS 2, but never negative.
-    const std::int64_t seconds = members.word(), nanoseconds = members.word();
-    state.stamp_ns = seconds * kNanoseconds + nanoseconds;
+    const std::int64_t seconds = members.number<std::uint32_t>();
+    state.stamp_ns = seconds * kNanoseconds + members.number<std::uint32_t>();
     members.text();  // the frame
-    members.align(wire.word_alignment);
+    members.align(sizeof(std::uint32_t));
     const std::size_t begin = members.position();
-    if (members.ok && !members.passes(last_names_)) {
-      const std::uint32_t count = members.word();
-      for (std::uint32_t i = 0; i < count && members.ok; ++i) members.text();
-      if (members.ok) last_names_.assign(bytes.substr(begin, members.position() - begin));
+    if (members.ok() && !members.passes(last_names_)) {
+      const auto count = members.number<std::uint32_t>();
+      for (std::uint32_t i = 0; i < count && members.ok(); ++i) members.text();
+      if (members.ok()) last_names_.assign(bytes.substr(begin, members.position() - begin));
     }
     state.names = bytes.substr(begin, members.position() - begin);
-    for (PackedNumbers& array : state.arrays) array = members.numbers();
-    last_wire_ = wire;
-    return members.ok;
+    for (PackedNumbers& array : state.arrays) {
+      const std::size_t count = members.number<std::uint32_t>();
+      array = {members.values(count, kDoubleBytes).data(), count, wire->swapped};
+    }
+    last_wire_ = *wire;
+    return members.ok();
   }
 
   std::vector<std::string> decode_names(const JointMessage& state) const override {
-    Wire wire = last_wire_;
+    MessageWire wire = last_wire_;
     wire.begin = 0;  // they begin aligned
-    Members members(state.names, wire);
-    const std::uint32_t count = members.word();
+    MessageBytes members(state.names, wire);
+    const auto count = members.number<std::uint32_t>();
     std::vector<std::string> names;
-    for (std::uint32_t i = 0; i < count && members.ok; ++i) names.emplace_back(members.text());
+    for (std::uint32_t i = 0; i < count && members.ok(); ++i) names.emplace_back(members.text());
     return names;
   }
 
  private:
-  bool wire_of(std::string_view bytes, Wire& wire) const {
-    if (!cdr_) {
-      wire.sequence_number = true;
-      return true;
-    }
-    constexpr std::size_t kHead = 4;
-    // Second byte of the head: plain CDR and its second version, whose numbers are aligned to 4 bytes only.
-    constexpr unsigned char kBig = 0, kLittle = 1, kBig2 = 6, kLittle2 = 7;
-    if (bytes.size() < kHead || bytes[0] != 0) return false;
-    const auto kind = static_cast<unsigned char>(bytes[1]);
-    if (kind != kBig && kind != kLittle && kind != kBig2 && kind != kLittle2) return false;
-    const bool second = kind == kBig2 || kind == kLittle2;
-    wire = {kHead, 4, second ? std::size_t{4} : kDoubleBytes, kind == kBig || kind == kBig2, false, true};
-    return true;
-  }
-
   bool cdr_;
   std::string last_names_;  ///< of the message before, encoded
-  Wire last_wire_;
+  MessageWire last_wire_;
 };
 
 /// Returns the first of the members that is a number; 0 for none.

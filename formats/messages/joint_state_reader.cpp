@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/bytes/work_budget.hpp"
+#include "formats/messages/expanded_messages.hpp"
 #include "formats/messages/joint_layout.hpp"
 #include "formats/messages/message_source.hpp"
 #include "formats/messages/recording_checks.hpp"
@@ -22,7 +23,7 @@ constexpr std::int64_t kLearnedMessages = 4000;
 constexpr std::uint64_t kLearnedBytes = 1 << 26;
 /// Largest number of values of a block, for any number of columns: 8 MiB.
 constexpr std::size_t kMostBlockValues = 1 << 20;
-constexpr std::size_t kNamedTopics = 20, kNamedJoints = 8;  ///< that a message lists
+constexpr std::size_t kNamedJoints = 8;  ///< that a message lists
 /// Converts to s: exactly for stamps that count from a start, to 2e-7 s for those since 1970.
 double seconds_of(std::int64_t nanoseconds) {
   constexpr std::int64_t kExact = std::int64_t{1} << 53, kSecond = 1'000'000'000;
@@ -31,30 +32,23 @@ double seconds_of(std::int64_t nanoseconds) {
   return static_cast<double>(seconds) + static_cast<double>(nanoseconds % kSecond) / 1e9;
 }
 
-/// Returns "its topics are ..".
-std::string topics_sentence(const std::vector<Topic>& topics) {
-  if (topics.empty()) return "it holds no topics";
-  std::string text = "its topics are ";
-  for (std::size_t i = 0; i < topics.size() && i < kNamedTopics; ++i)
-    text += fmt::format("{}{} ({}, {})", i ? ", " : "", in_quotes(topics[i].name),
-                        shortened(topics[i].type, kLongestName), shortened(topics[i].encoding, kLongestName));
-  if (topics.size() > kNamedTopics) text += fmt::format(" and {} more", topics.size() - kNamedTopics);
-  return text;
-}
-
 class JointStateReader : public RawReader {
  public:
-  explicit JointStateReader(std::unique_ptr<MessageSource> source) : source_(std::move(source)) {
+  explicit JointStateReader(std::unique_ptr<MessageSource> source)
+      : source_(std::make_unique<ExpandedMessages>(std::move(source))) {
     identity_.path = source_->path();
     identity_.format = source_->format();
-    learn_joints();
-    choose({});
   }
 
   const std::vector<RawColumn>& columns() const override { return layout_.columns; }
   double share_read() const override { return source_->share_read(); }
 
   void choose(const RecordingChoice& choice) override {
+    source_->choose(choice.fields);
+    source_->rewind();
+    streams_ = {};
+    learn_joints();
+    source_->require_fields();
     layout_ = layout_joints(source_->topics(), streams_.streams(), choice, identity_.path);
     wanted_.assign(layout_.columns.size(), true);
     find_held_columns();
@@ -107,9 +101,10 @@ class JointStateReader : public RawReader {
     }
     if (!learned)
       throw Error(ErrorCode::input, identity_.path,
-                  "has no sensor_msgs/JointState message that can be read; " +
-                      topics_sentence(source_->topics()) + first_issue() +
-                      ". Record the topic of the joint states, or export the signals as CSV");
+                  "has no message with joint states that can be read; " + topics_sentence(source_->topics()) +
+                      first_issue() +
+                      ". Record the topic of the joint states, or name the fields of the messages in the "
+                      "robot file: [log.columns] q = {topic = \"/arm/state\", field = \"q[#]\", first = 0}");
     streams_.settle();
   }
 
@@ -315,7 +310,7 @@ class JointStateReader : public RawReader {
     rivals_.report_at_end(issues_);
   }
 
-  std::unique_ptr<MessageSource> source_;
+  std::unique_ptr<ExpandedMessages> source_;
   JointStreams streams_;
   JointLayout layout_;
   std::vector<double*> values_;  ///< of the block that is being filled; null for columns not wanted

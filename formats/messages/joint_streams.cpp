@@ -47,7 +47,8 @@ JointStateDecoder* JointStreams::decoder_of(const Topic& topic, int index) {
   const auto at = static_cast<std::size_t>(index);
   if (at >= readers_.size()) readers_.resize(at + 1);
   TopicReader& reader = readers_[at];
-  if (!reader.asked && is_joint_state(topic.type)) reader.decoder = joint_state_decoder(topic.encoding);
+  if (!reader.asked && (is_joint_state(topic.type) || topic.role == TopicRole::fields))
+    reader.decoder = joint_state_decoder(topic.encoding);
   reader.asked = true;
   return reader.decoder.get();
 }

@@ -10,9 +10,22 @@ namespace faultline {
 namespace {
 
 constexpr std::size_t kMostTopics = 1 << 17;
-constexpr std::size_t kMostTopicBytes = 1 << 24;  ///< of the texts of all topics
+constexpr std::size_t kMostTopicBytes = 1 << 24;         ///< of the texts of all topics
+constexpr std::size_t kLongestTypeDefinition = 1 << 18;  ///< bytes; a longer one counts as not stated
+
+constexpr std::size_t kNamedTopics = 20;  ///< that a sentence lists
 
 }  // namespace
+
+std::string topics_sentence(const std::vector<Topic>& topics) {
+  if (topics.empty()) return "it holds no topics";
+  std::string text = "its topics are ";
+  for (std::size_t i = 0; i < topics.size() && i < kNamedTopics; ++i)
+    text += fmt::format("{}{} ({}, {})", i ? ", " : "", in_quotes(topics[i].name),
+                        shortened(topics[i].type, kLongestName), shortened(topics[i].encoding, kLongestName));
+  if (topics.size() > kNamedTopics) text += fmt::format(" and {} more", topics.size() - kNamedTopics);
+  return text;
+}
 
 int TopicList::add(Topic topic) {
   for (std::string* text : {&topic.name, &topic.type, &topic.encoding})
@@ -20,7 +33,8 @@ int TopicList::add(Topic topic) {
   const auto next = static_cast<int>(topics_.size());
   const auto [place, fresh] = index_of_.emplace(std::tuple(topic.name, topic.type, topic.encoding), next);
   if (!fresh) return place->second;
-  bytes_ += topic.name.size() + topic.type.size() + topic.encoding.size();
+  if (topic.definition.size() > kLongestTypeDefinition) topic.definition.clear();
+  bytes_ += topic.name.size() + topic.type.size() + topic.encoding.size() + topic.definition.size();
   if (topics_.size() == kMostTopics || bytes_ > kMostTopicBytes)
     throw Error(ErrorCode::input, path_,
                 fmt::format("names more than {} topics, or topics with more than {} MiB of names; write a "

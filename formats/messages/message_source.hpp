@@ -19,15 +19,24 @@
 
 namespace faultline {
 
+/// What the messages of a topic say of the joints, where that is known; `unknown` leaves it to the names.
+enum class TopicRole { unknown, measured, reference, commanded_torque, fields };
+
 /// A named stream of messages of one type in a recording.
 struct Topic {
   std::string name;
   std::string type;      ///< such as "sensor_msgs/msg/JointState"
   std::string encoding;  ///< of the messages: "cdr", "ros1", "json"; others cannot be read
+  std::string
+      definition{};  ///< of the type, in the language of ROS; empty if the recording does not state it
+  TopicRole role = TopicRole::unknown;
 };
 
 /// Returns the name of a topic or a joint in quotation marks, shortened.
 inline std::string in_quotes(std::string_view name) { return "\"" + shortened(name, kLongestName) + "\""; }
+
+/// Returns "its topics are ..", with names, types and encodings.
+std::string topics_sentence(const std::vector<Topic>& topics);
 
 /// Bytes to which each text of a topic is cut; no name is as long.
 inline constexpr std::size_t kLongestTopicText = 1 << 12;
@@ -59,26 +68,39 @@ struct Message {
 
 /// A recording of messages in the order of receipt, up to damage and, if the format allows, after it. Every
 /// failure to read the file throws Error(input).
-class MessageSource {
+class MessageStream {
  public:
-  /// `format` is the name of the format in LogIdentity.
-  MessageSource(std::unique_ptr<ByteSource> bytes, const char* format)
-      : bytes_(std::move(bytes)), topics_(bytes_->path()), format_(format) {}
-  virtual ~MessageSource() = default;
-  const std::string& path() const { return bytes_->path(); }
-  const char* format() const { return format_; }
+  virtual ~MessageStream() = default;
+  virtual const std::string& path() const = 0;
+  /// Name of the format in LogIdentity.
+  virtual const char* format() const = 0;
   /// Topics met so far; the list only grows.
-  const std::vector<Topic>& topics() const { return topics_.all(); }
+  virtual const std::vector<Topic>& topics() const = 0;
   /// False after the last one.
   virtual bool next(Message& message) = 0;
   /// Starts again, with issues empty; the topics stay.
   virtual void rewind() = 0;
-  const Issues& issues() const { return issues_; }
+  virtual const Issues& issues() const = 0;
   /// Counts work on the message, see WorkBudget.
-  virtual void spend(std::int64_t work_ns) { bytes_->spend(work_ns); }
+  virtual void spend(std::int64_t work_ns) = 0;
   /// SHA-256 of the file once its end was reached, empty before.
-  const std::string& sha256() const { return bytes_->sha256(); }
-  virtual double share_read() const { return bytes_->share_read(); }
+  virtual const std::string& sha256() const = 0;
+  /// Share of the file read so far, 0 to 1.
+  virtual double share_read() const = 0;
+};
+
+/// The messages of a file.
+class MessageSource : public MessageStream {
+ public:
+  MessageSource(std::unique_ptr<ByteSource> bytes, const char* format)
+      : bytes_(std::move(bytes)), topics_(bytes_->path()), format_(format) {}
+  const std::string& path() const override { return bytes_->path(); }
+  const char* format() const override { return format_; }
+  const std::vector<Topic>& topics() const override { return topics_.all(); }
+  const Issues& issues() const override { return issues_; }
+  void spend(std::int64_t work_ns) override { bytes_->spend(work_ns); }
+  const std::string& sha256() const override { return bytes_->sha256(); }
+  double share_read() const override { return bytes_->share_read(); }
 
  protected:
   std::unique_ptr<ByteSource> bytes_;
@@ -136,8 +158,10 @@ class ChunkedSource : public MessageSource {
   bool lossy_ = false, doubtful_ = false, at_end_ = false;
 };
 
-/// Opens the sensor_msgs/JointState messages of a recording as a table. The joints are found in its first
-/// part; messages with other joints later are reported as issues. Throws Error(input) without such messages.
+/// Opens the messages of a recording about joints as a table: sensor_msgs/JointState, the states of
+/// controllers (see joint_views()), and the fields that the robot file names. The joints are found in its
+/// first part; messages with other joints later are reported as issues. choose() throws Error(input) when
+/// there are none.
 std::unique_ptr<RawReader> read_joint_states(std::unique_ptr<MessageSource> source);
 
 /// Topics under which this program writes a log: the joints with position, velocity and torque, the commands,

@@ -230,9 +230,10 @@ class Rosbag1Source : public ChunkedSource {
   void add_connection(const Rosbag1Fields& fields, std::string_view data) {
     const std::uint32_t id = fields.word("conn");
     if (topic_of(id) >= 0) return;
+    const Rosbag1Fields stated(data);
     topics_of_[recordings_ - 1].emplace(
-        id, topics_.add(
-                {std::string(fields.text("topic")), std::string(Rosbag1Fields(data).text("type")), "ros1"}));
+        id, topics_.add({std::string(fields.text("topic")), std::string(stated.text("type")), "ros1",
+                         std::string(stated.text("message_definition"))}));
   }
 
   Taken read_message(const Rosbag1Fields& fields, std::string_view data, bool lost, Message& message) {

@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 constexpr int kLongestMessage = 1 << 26;
+constexpr std::size_t kMostDefinitions = 1 << 12;  ///< types of messages
 constexpr int kMostCacheKib = 16 << 10;
 /// Steps of SQLite's virtual machine between two counts of the work, and the usual time for one; a message
 /// takes about ten.
@@ -102,7 +103,7 @@ class Rosbag2Source : public MessageSource {
         budget_(path()) {
     open();
     bound_work();
-    for (const char* table : {"topics", "messages"}) refuse_computed(table);
+    for (const char* table : {"topics", "messages", "message_definitions"}) refuse_computed(table);
     sqlite3_set_authorizer(db_.get(), allow, nullptr);
     read_topics();
     start();
@@ -220,13 +221,29 @@ class Rosbag2Source : public MessageSource {
           "is an SQLite file, but not a readable rosbag2 recording ({}); a recording has the tables topics "
           "and messages. Export it as CSV",
           sqlite3_errmsg(db_.get())));
+    const std::map<std::string, std::string> definitions = read_definitions();
     while (sqlite3_step(topics.get()) == SQLITE_ROW) {
       spend(kMessageWork_ns);
-      topic_of_id_.emplace(
-          sqlite3_column_int64(topics.get(), 0),
-          topics_.add({text_of(topics.get(), 1), text_of(topics.get(), 2), text_of(topics.get(), 3)}));
+      const std::string type = text_of(topics.get(), 2);
+      const auto stated = definitions.find(type);
+      topic_of_id_.emplace(sqlite3_column_int64(topics.get(), 0),
+                           topics_.add({text_of(topics.get(), 1), type, text_of(topics.get(), 3),
+                                        stated == definitions.end() ? "" : stated->second}));
     }
     if (over_budget_) refuse_work();
+  }
+
+  /// Returns the definitions by type, which recorders of ROS 2 Iron and later write.
+  std::map<std::string, std::string> read_definitions() {
+    std::map<std::string, std::string> definitions;
+    const Statement rows = prepared(
+        db_.get(), "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions");
+    while (rows && sqlite3_step(rows.get()) == SQLITE_ROW && definitions.size() < kMostDefinitions) {
+      spend(kMessageWork_ns);
+      if (text_of(rows.get(), 1) == "ros2msg")
+        definitions.emplace(text_of(rows.get(), 0), text_of(rows.get(), 2));
+    }
+    return definitions;
   }
 
   void find_last_number() {

@@ -38,7 +38,8 @@ class RawReader {
  public:
   virtual ~RawReader() = default;
   virtual const std::vector<RawColumn>& columns() const = 0;
-  /// Chooses the part of a recording of messages that is the log. To be called first: columns() may change.
+  /// Chooses the part of a recording of messages that is the log. To be called first: such a recording has no
+  /// columns before. Throws Error(input) for a choice that the recording does not have.
   virtual void choose(const RecordingChoice&) {}
   /// Selects the columns to read; the vectors of the others may be empty. All are selected at first.
   virtual void want(const std::vector<bool>& columns) { wanted_ = columns; }

@@ -62,6 +62,12 @@ TomlTable load_log_preset(const TomlTable& table, const std::string& key) {
 ColumnSpec column_spec(const TomlTable& table) {
   ColumnSpec spec;
   spec.name = table.text("name", "");
+  spec.topic = table.text("topic", "");
+  if (spec.topic.empty() == table.has("field"))
+    table.fail("field", "a value of a message needs both its topic and its field");
+  if (table.has("field") && table.has("name"))
+    table.fail("name", "expected either the name of a column, or the topic and the field of a message");
+  if (table.has("field")) spec.name = spec.topic + "/" + table.text("field");
   spec.unit = table.text("unit", "");
   spec.sign = table.number("sign", 1.0);
   if (std::abs(spec.sign) != 1.0) table.fail("sign", fmt::format("expected 1 or -1, found {}", spec.sign));
@@ -132,6 +138,7 @@ void read_family(const TomlTable& columns, const std::string& family, int joints
   for (int j = 0; j < joints; ++j) {
     ColumnSpec spec = pattern;
     spec.name.replace(sign, 1, std::to_string(first + j));
+    if (sign < spec.topic.size()) spec.topic.replace(sign, 1, std::to_string(first + j));
     map[fmt::format("{}{}", family, Joint::at(j))] = spec;
   }
 }
@@ -165,6 +172,10 @@ void read_meaning(const TomlTable& log, int joints, LogMeaning& meaning) {
   if (log.has("coupling")) meaning.coupling = read_coupling(log, joints);
   meaning.recording = read_recording(log, joints, meaning.recording);
   read_columns(log.table("columns"), joints, meaning.columns);
+  meaning.recording.fields.clear();
+  for (const auto& [channel, spec] : meaning.columns)
+    if (!spec.topic.empty())
+      meaning.recording.fields.push_back({spec.topic, spec.name.substr(spec.topic.size() + 1)});
 }
 
 }  // namespace

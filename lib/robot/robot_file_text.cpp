@@ -74,6 +74,13 @@ std::string recording_text(const RecordingChoice& choice) {
   return text + fmt::format("joints = [{}]\n", names);
 }
 
+/// Returns the keys that say where the values of a channel come from.
+std::string column_text(const ColumnSpec& spec) {
+  if (spec.topic.empty()) return fmt::format("name = {}", toml_quoted(spec.name));
+  return fmt::format("topic = {}, field = {}", toml_quoted(spec.topic),
+                     toml_quoted(spec.name.substr(spec.topic.size() + 1)));
+}
+
 std::string log_text(const LogMeaning& log) {
   std::string text = fmt::format("\n[log]\ntorque = \"{}\"\ntorque_between_samples = \"{}\"\n",
                                  to_string(log.torque), to_string(log.torque_between_samples));
@@ -81,8 +88,8 @@ std::string log_text(const LogMeaning& log) {
   if (log.coupling.size() > 0) text += coupling_text(log.coupling);
   if (!log.columns.empty()) text += "\n[log.columns]\n";
   for (const auto& [channel, spec] : log.columns)
-    text += fmt::format("{} = {{name = {}, unit = {}, sign = {}, scale = {}, offset = {}}}\n", channel,
-                        toml_quoted(spec.name), toml_quoted(spec.unit), toml_number(spec.sign),
+    text += fmt::format("{} = {{{}, unit = {}, sign = {}, scale = {}, offset = {}}}\n", channel,
+                        column_text(spec), toml_quoted(spec.unit), toml_number(spec.sign),
                         toml_number(spec.scale), toml_number(spec.offset));
   return text;
 }
