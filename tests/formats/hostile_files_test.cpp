@@ -136,7 +136,7 @@ TEST_F(HostileFile, AJsonMessageWithAVeryLongListIsRefused) {
   const made::Reading reading = reading_of(made::mcap(
       made::chunk(made::record(McapOp::schema, schema.bytes()) +
                   made::record(McapOp::channel, channel.bytes()) + made::message(1, 0, list + "]}"))));
-  expect_says(refusal(reading), "has no sensor_msgs/JointState message that can be read");
+  expect_says(refusal(reading), "has no message with joint states that can be read");
 }
 
 constexpr const char* kTopicsTable =

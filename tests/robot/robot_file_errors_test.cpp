@@ -56,6 +56,9 @@ TEST(RobotFileErrors, WrongValuesNameTheExpectedValue) {
   expect_error("axes = \"RRP\"\n[log]\ntorque = \"comanded\"", {"log.torque", "did you mean \"commanded\""});
   expect_error("axes = \"RRP\"\n[log.columns]\nq4 = \"x\"", {"log.columns.q4", "q1..q3"});
   expect_error("axes = \"RRP\"\n[log.columns]\nq1 = {sign = 2}", {"log.columns.q1.sign", "1 or -1"});
+  expect_error("axes = \"RRP\"\n[log.columns]\nq1 = {field = \"q[0]\"}", {"log.columns.q1.field", "topic"});
+  expect_error("axes = \"RRP\"\n[log.columns]\nq1 = {name = \"a\", topic = \"/a\", field = \"q[0]\"}",
+               {"log.columns.q1.name", "either"});
   expect_error("axes = \"RRP\"\n[[link]]\nmass = 1", {"key link", "each of the 3 joints", "found 1"});
   expect_error("axes = \"RRP\"\nwidth = 0", {"key width", "positive"});
 }

@@ -145,6 +145,23 @@ TEST(RobotFile, CouplingRoundTripsExactly) {
   EXPECT_EQ(robot_from_toml(robot_file_text(robot), "again").log.coupling, robot.log.coupling);
 }
 
+TEST(RobotFile, FieldsOfMessagesRoundTripWithTheNumberOfTheJointInTopicAndField) {
+  const Robot robot = robot_from_toml(
+      "axes = \"RR\"\n[log.columns]\nq = {topic = \"/arm\", field = \"drives[#].angle\", first = 0, unit = \"deg\"}\n"
+      "tau = {topic = \"/joint#/state\", field = \"effort\"}\n",
+      "r.toml");
+  const Robot again = robot_from_toml(robot_file_text(robot), "again");
+  for (const Robot* read : {&robot, &again}) {
+    EXPECT_EQ(read->log.columns.at("q2").name, "/arm/drives[1].angle");
+    EXPECT_EQ(read->log.columns.at("q2").topic, "/arm");
+    EXPECT_EQ(read->log.columns.at("q2").unit, "deg");
+    EXPECT_EQ(read->log.columns.at("tau1").name, "/joint1/state/effort");
+    ASSERT_EQ(read->log.recording.fields.size(), 4U);
+    EXPECT_EQ(read->log.recording.fields[3].topic, "/joint2/state");
+    EXPECT_EQ(read->log.recording.fields[3].field, "effort");
+  }
+}
+
 TEST(RobotFile, EveryPresetRoundTrips) {
   for (const char* axes : {"RRP", "RRPR", "RPRR", "RR", "R", "P"}) {
     const Robot robot = preset_robot(axes);
