@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/csv/csv_fields.hpp"
+#include "formats/csv/scope_export.hpp"
 
 namespace faultline {
 namespace {
@@ -163,6 +164,7 @@ CsvDialect find_dialect(std::string_view head) {
   CsvDialect dialect;
   std::vector<CsvLine> lines = lines_of(head);
   choose_separator(lines, dialect);
+  if (find_scope_columns(lines, dialect)) return dialect;
   const int fields = usual_fields(lines);
   const auto row =
       std::find_if(lines.begin(), lines.end(), [&](const CsvLine& line) { return is_data(line, fields); });

@@ -2,13 +2,12 @@
 #include "formats/csv/csv_fields.hpp"
 
 #include <cctype>
-#include <chrono>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "formats/csv/clock_text.hpp"
 #include "formats/csv/wide_rows.hpp"
 #include "lib/log/raw_reader.hpp"
 
@@ -16,98 +15,6 @@ namespace faultline {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
-constexpr int kHours = 24, kSixty = 60, kMonths = 12, kDays = 31;
-
-/// Takes parts from the front of a text; sets `ok` to false if one is missing.
-struct ClockText {
-  std::string_view rest;
-  bool ok = true;
-
-  int digits(std::size_t count) {
-    int value = 0;
-    if (rest.size() < count) return ok = false, 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (rest[i] < '0' || rest[i] > '9') return ok = false, 0;
-      value = 10 * value + (rest[i] - '0');
-    }
-    rest.remove_prefix(count);
-    return value;
-  }
-  bool takes(char c) {
-    if (rest.empty() || rest.front() != c) return false;
-    rest.remove_prefix(1);
-    return true;
-  }
-  void demand(char c) { ok = takes(c) && ok; }
-
-  /// Reads hh:mm:ss; returns seconds. The second may be 60 (leap second).
-  std::int64_t time_of_day() {
-    const int hours = digits(2);
-    demand(':');
-    const int minutes = digits(2);
-    demand(':');
-    const int seconds = digits(2);
-    ok = ok && hours < kHours && minutes < kSixty && seconds <= kSixty;
-    return (std::int64_t{hours} * kSixty + minutes) * kSixty + seconds;
-  }
-  /// Reads the digits after a decimal sign, if there is one; returns nanoseconds, truncated.
-  std::int64_t nanoseconds() {
-    if (!takes('.') && !takes(',')) return 0;
-    std::int64_t value = 0, scale = 1'000'000'000;
-    const std::size_t before = rest.size();
-    for (; !rest.empty() && rest.front() >= '0' && rest.front() <= '9'; rest.remove_prefix(1)) {
-      if (scale == 1) continue;
-      scale /= 10;
-      value += scale * (rest.front() - '0');
-    }
-    ok = ok && rest.size() < before;
-    return value;
-  }
-  /// Reads the time zone; returns seconds east of UTC.
-  std::int64_t zone() {
-    if (rest.empty() || takes('Z') || takes('z')) return 0;
-    const bool west = takes('-');
-    if (!west) demand('+');
-    const int hours = digits(2);
-    takes(':');
-    const int minutes = rest.empty() ? 0 : digits(2);
-    return (west ? -1 : 1) * (std::int64_t{hours} * kSixty + minutes) * kSixty;
-  }
-};
-
-std::int64_t days_after_1970(int year, int month, int day) {
-  using namespace std::chrono;
-  const year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
-                            std::chrono::day(static_cast<unsigned>(day))};
-  return sys_days(date).time_since_epoch().count();
-}
-
-/// Converts a date and time in ISO 8601 ("2026-05-01T12:30:00.125+02:00", also with a blank for the T, a
-/// decimal comma, or no zone = UTC) to seconds since 1970, or a time of day ("12:30:00.125") to seconds since
-/// midnight; nullopt for any other text.
-std::optional<double> clock_seconds(std::string_view text) {
-  constexpr std::size_t kShortest = 8;  // hh:mm:ss
-  if (text.size() < kShortest) return std::nullopt;
-  ClockText clock{text};
-  std::int64_t seconds = 0;
-  const bool dated = text[4] == '-';
-  if (dated) {
-    const int year = clock.digits(4);
-    clock.demand('-');
-    const int month = clock.digits(2);
-    clock.demand('-');
-    const int day = clock.digits(2);
-    clock.ok = clock.ok && (clock.takes('T') || clock.takes('t') || clock.takes(' ')) && month >= 1 &&
-               month <= kMonths && day >= 1 && day <= kDays;
-    if (!clock.ok) return std::nullopt;
-    seconds = days_after_1970(year, month, day) * kHours * kSixty * kSixty;
-  }
-  seconds += clock.time_of_day();
-  const std::int64_t nanoseconds = clock.nanoseconds();
-  if (dated) seconds -= clock.zone();
-  if (!clock.ok || !clock.rest.empty()) return std::nullopt;
-  return static_cast<double>(seconds) + static_cast<double>(nanoseconds) / 1e9;
-}
 
 bool equals_ignoring_case(std::string_view text, std::string_view lower) {
   if (text.size() != lower.size()) return false;
@@ -144,7 +51,7 @@ bool is_comment_or_blank(std::string_view line) {
   return line.empty() || line.front() == '#' || line.front() == '%';
 }
 
-Cell read_cell(std::string_view text, char decimal) {
+Cell read_cell(std::string_view text, char decimal, bool day_first) {
   text = without_quotes(text);
   if (means_missing(text)) return {CellKind::missing, kNan};
   if (equals_ignoring_case(text, "true")) return {CellKind::number, 1.0};
@@ -152,7 +59,7 @@ Cell read_cell(std::string_view text, char decimal) {
   if (text.front() == '+') text.remove_prefix(1);
   double value = 0.0;
   if (read_number(text.data(), text.data() + text.size(), decimal, value)) return {CellKind::number, value};
-  if (const auto seconds = clock_seconds(text)) return {CellKind::number, *seconds};
+  if (const auto clock = read_clock(text, day_first)) return {CellKind::number, clock->seconds};
   return {CellKind::text, kNan};
 }
 
@@ -194,7 +101,8 @@ void count_cells(CsvLine& line, char separator, char decimal) {
   split_fields(line.text, separator, line.fields);
   line.numbers = line.texts = 0;
   for (const std::string_view field : line.fields) {
-    const CellKind kind = read_cell(field, decimal).kind;
+    CellKind kind = read_cell(field, decimal).kind;
+    if (kind == CellKind::text) kind = read_cell(field, decimal, true).kind;  // a date with the day first
     line.numbers += kind == CellKind::number;
     line.texts += kind == CellKind::text;
   }

@@ -14,8 +14,8 @@ struct Cell {
 };
 
 /// Reads one cell: blanks and quotes around it are ignored; empty, "nan", "null", "NA", "-" are missing;
-/// "true" and "false" are 1 and 0.
-Cell read_cell(std::string_view text, char decimal);
+/// "true" and "false" are 1 and 0. A date or a time of day is a number of seconds, see read_clock().
+Cell read_cell(std::string_view text, char decimal, bool day_first = false);
 
 /// Upper limit of the columns; a text with more is rejected, so that a small file cannot take much memory.
 inline constexpr int kMostFields = 1 << 14;

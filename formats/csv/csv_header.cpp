@@ -10,7 +10,6 @@
 #include "formats/csv/csv_fields.hpp"
 #include "lib/core/csv_cell.hpp"
 #include "lib/log/channel_names.hpp"
-#include "lib/log/columns/counted_time.hpp"
 #include "lib/log/units.hpp"
 
 namespace faultline {
@@ -152,40 +151,6 @@ std::string without_apostrophe(const std::string& name) {
   return inert ? name.substr(1) : name;
 }
 
-/// Returns the values of a field in the data rows.
-std::vector<double> values_of(std::span<const CsvLine> rows, int field, const CsvDialect& dialect) {
-  std::vector<double> values;
-  for (const CsvLine& row : rows)
-    if (is_data(row, dialect.fields))
-      values.push_back(read_cell(row.fields[static_cast<std::size_t>(field)], dialect.decimal).value);
-  return values;
-}
-
-/// Sets the unit of a time without unit to the one that its steps suggest.
-void find_time_unit(std::span<const CsvLine> rows, CsvDialect& dialect) {
-  std::vector<std::string> names;
-  for (const RawColumn& column : dialect.columns) names.push_back(column.name);
-  const int time = find_time_column(names);
-  if (time < 0 || !dialect.columns[static_cast<std::size_t>(time)].unit.empty()) return;
-  std::vector<NamedValues> moving;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (const auto quantity = parse_name(names[i]).quantity;
-        quantity == Quantity::q || quantity == Quantity::dq)
-      moving.push_back({names[i], values_of(rows, dialect.value_fields[i], dialect)});
-  const auto cell_of_time = [&](const CsvLine& row) {
-    return row.fields[static_cast<std::size_t>(dialect.value_fields[static_cast<std::size_t>(time)])];
-  };
-  const bool is_clock = std::any_of(rows.begin(), rows.end(), [&](const CsvLine& row) {
-    return is_data(row, dialect.fields) && cell_of_time(row).find(':') != std::string_view::npos;
-  });
-  if (is_clock) return;  // in seconds
-  const CountedTime counted =
-      counted_time(values_of(rows, dialect.value_fields[static_cast<std::size_t>(time)], dialect), moving);
-  dialect.columns[static_cast<std::size_t>(time)].unit = counted.unit;
-  dialect.columns[static_cast<std::size_t>(time)].unit_assumed = !counted.why.empty();
-  dialect.time_note = counted.why;
-}
-
 void make_columns(const Header& header, int fields, const CsvLine* row, CsvDialect& dialect) {
   const auto& [names, units] = header;
   dialect.fields = fields;
@@ -216,7 +181,7 @@ void find_columns(std::span<const CsvLine> above, std::span<const CsvLine> rows,
   Header header = find_header(above, open_end, fields, dialect);
   if (!dialect.has_header && !rows.empty()) name_headless(rows, dialect, header.names);
   make_columns(header, fields, rows.empty() ? nullptr : &rows[0], dialect);
-  find_time_unit(rows, dialect);
+  find_time(rows, dialect);
 }
 
 bool repeats_header(const CsvDialect& dialect, const std::vector<std::string_view>& fields) {

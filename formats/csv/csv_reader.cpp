@@ -6,14 +6,17 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/byte_source.hpp"
 #include "formats/csv/csv_dialect.hpp"
 #include "formats/csv/csv_fields.hpp"
 #include "formats/csv/csv_row.hpp"
+#include "formats/csv/scope_export.hpp"
 #include "formats/csv/wide_rows.hpp"
 #include "formats/known_formats.hpp"
+#include "formats/parts/joined_reader.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 
@@ -113,12 +116,13 @@ std::size_t longest_line(std::string_view text) {
   return longest;
 }
 
-/// Returns a head of the file with room for some of its longest lines, so that a long header is whole and has
-/// rows below.
+/// Returns a head of the file with room for some of its longest lines, so that a long header, which may take
+/// several lines, is whole and has rows below.
 std::string_view whole_lines_head(ByteSource& bytes) {
-  constexpr std::size_t kLines = 4;
+  constexpr std::size_t kLines = 4, kScopeLines = 32;
+  const std::size_t lines = begins_like_scope_export(bytes.head()) ? kScopeLines : kLines;
   std::size_t longest = longest_line(bytes.head());
-  while (longest <= kLongestHeadLine && bytes.head().size() < kLines * longest && bytes.extend_head())
+  while (longest <= kLongestHeadLine && bytes.head().size() < lines * longest && bytes.extend_head())
     longest = longest_line(bytes.head());
   if (longest > kLongestHeadLine)
     throw Error(ErrorCode::input, bytes.path(),
@@ -129,7 +133,7 @@ std::string_view whole_lines_head(ByteSource& bytes) {
 
 class CsvReader : public RawReader {
  public:
-  explicit CsvReader(std::unique_ptr<ByteSource> bytes);
+  CsvReader(std::unique_ptr<ByteSource> bytes, CsvDialect dialect);
 
   const std::vector<RawColumn>& columns() const override { return dialect_.columns; }
   void want(const std::vector<bool>& columns) override { rows_.want(columns); }
@@ -170,6 +174,9 @@ class CsvReader : public RawReader {
     block.rows = row;
     for (auto& column : block.columns)
       if (!column.empty()) column.resize(row);
+    if (dialect_.filetime)
+      for (double& time : block.columns[static_cast<std::size_t>(dialect_.time_column)])
+        time = seconds_of_filetime(time);
     return row > 0;
   }
 
@@ -268,9 +275,9 @@ class CsvReader : public RawReader {
   CsvRowReader rows_;
 };
 
-CsvReader::CsvReader(std::unique_ptr<ByteSource> bytes)
+CsvReader::CsvReader(std::unique_ptr<ByteSource> bytes, CsvDialect dialect)
     : bytes_(std::move(bytes)),
-      dialect_(find_dialect(whole_lines_head(*bytes_))),
+      dialect_(std::move(dialect)),
       lines_(*bytes_),
       issues_(dialect_),
       rows_(dialect_, issues_) {
@@ -289,7 +296,26 @@ bool looks_like_csv(std::string_view head) {
 }
 
 std::unique_ptr<RawReader> open_csv(std::unique_ptr<ByteSource> bytes) {
-  return std::make_unique<CsvReader>(std::move(bytes));
+  CsvDialect dialect = find_dialect(whole_lines_head(*bytes));
+  if (dialect.others.empty()) return std::make_unique<CsvReader>(std::move(bytes), std::move(dialect));
+  const std::string path = bytes->path();
+  if (dialect.others.size() > kMostOwnTimes)
+    throw Error(ErrorCode::input, path,
+                fmt::format("is an export of TwinCAT Scope whose channels have more than {} different times; "
+                            "record the joints with one sample time, or export fewer channels",
+                            kMostOwnTimes + 1));
+  const std::vector<OwnTimeColumns> groups = std::exchange(dialect.others, {});
+  auto first = std::make_unique<CsvReader>(std::move(bytes), dialect);
+  std::vector<std::unique_ptr<RawReader>> others;
+  dialect.issues = {};
+  dialect.preamble_lines = 0;
+  for (const OwnTimeColumns& group : groups) {
+    dialect.columns = group.columns;
+    dialect.value_fields = group.value_fields;
+    others.push_back(
+        rows_of_own_time(std::make_unique<CsvReader>(std::make_unique<ByteSource>(path, false), dialect)));
+  }
+  return join_files(std::move(first), std::move(others), JoinBy::time);
 }
 
 }  // namespace faultline

@@ -24,6 +24,9 @@ std::string words(const CsvPlace& place) {
   return fmt::format("row {} (line {})", place.row + 1, place.line + 1);
 }
 
+/// The last line of an export of TwinCAT Scope, where that was asked for.
+constexpr std::string_view kEndOfExport = "EOF";
+
 constexpr std::size_t kQuotedBytes = 240;  // of a line; enough for the characters that are shown
 
 /// A header among the rows of a table, as in concatenated files.
@@ -71,8 +74,7 @@ void CsvIssues::start() {
   if (dialect_.preamble_lines > 0)
     issues_.add({"preamble_skipped", "", Severity::note, "lines before the table were left out", 0, kNan,
                  dialect_.preamble_lines});
-  if (!dialect_.time_note.empty())
-    issues_.add({"time_unit_assumed", "t", Severity::note, dialect_.time_note});
+  issues_.merge(dialect_.issues);
   if (dialect_.names_in_rows)
     issues_.add({"names_in_rows", "", Severity::note,
                  "the file has no header; the name before each value is used as the name of its column"});
@@ -216,6 +218,7 @@ CsvRow CsvRowReader::read_any(std::string_view line, const CsvPlace& at, int row
       issues_.add(issue_from_provenance(line.substr(kProvenanceComment.size())));
     return CsvRow::skip;
   }
+  if (dialect_.ends_early && without_blanks(line) == kEndOfExport) return CsvRow::skip;
   split_fields(line, dialect_.separator, fields_);
   if (take_header(at)) return CsvRow::skip;
   if (is_other_table_) {
@@ -297,9 +300,11 @@ CsvRow CsvRowReader::judge_length(std::string_view line, const CsvPlace& at) {
   const int have = static_cast<int>(fields_.size());
   if (have < dialect_.fields) {
     absent_fields_ += dialect_.fields - have;
-    issues_.add_row(
-        at, "ragged_row",
-        [&] { return field_count(line) + "; the lacking fields at its end are treated as missing"; }, false);
+    if (!dialect_.ends_early)
+      issues_.add_row(
+          at, "ragged_row",
+          [&] { return field_count(line) + "; the lacking fields at its end are treated as missing"; },
+          false);
   }
   bool surplus = false;
   for (int i = dialect_.fields; i < have; ++i) surplus = surplus || !fields_[i].empty();
@@ -318,10 +323,22 @@ void CsvRowReader::read_cells(const CsvPlace& at, int row) {
     double* values = field_values_[field];
     if (!values) continue;
     const bool there = field < static_cast<int>(fields_.size());
-    const Cell cell = there ? read_cell(fields_[field], dialect_.decimal) : Cell{CellKind::missing, kNan};
+    const Cell cell = there ? read_cell(fields_[field], dialect_.decimal, dialect_.day_first)
+                            : Cell{CellKind::missing, kNan};
     values[row] = cell.value;
     if (cell.kind == CellKind::text) issues_.add_text(at, column_of_field_[field], field, fields_[field]);
   }
+  if (dialect_.date_column >= 0) add_date(row);
+}
+
+/// Adds the date of the row to its time of day. Rows with dates are never read by read_plain() or
+/// read_many().
+void CsvRowReader::add_date(int row) {
+  double* times = field_values_[value_fields_[dialect_.time_column]];
+  const auto date = static_cast<std::size_t>(value_fields_[dialect_.date_column]);
+  if (!times) return;
+  times[row] +=
+      date < fields_.size() ? read_cell(fields_[date], dialect_.decimal, dialect_.day_first).value : kNan;
 }
 
 }  // namespace faultline

@@ -98,6 +98,7 @@ class CsvRowReader {
   CsvRow judge_end(std::string_view line, const CsvPlace& at, const LastCells& usual);
   std::string field_count(std::string_view line) const;
   void read_cells(const CsvPlace& at, int row);
+  void add_date(int row);
 
   const CsvDialect& dialect_;
   CsvIssues& issues_;

@@ -44,7 +44,7 @@ struct RawTime {
 std::optional<RawTime> find_raw_time(const std::vector<RawColumn>& columns) {
   std::vector<std::string> names;
   for (int i = 0; i < std::ssize(columns); ++i) {
-    if (columns[i].meaning == Channel{}) return RawTime{i, -1, 1.0};
+    if (columns[i].meaning == Channel{}) return RawTime{i, -1, si_factor(columns[i].unit).value_or(1.0)};
     names.push_back(columns[i].name);
   }
   if (const int column = find_time_column(names); column >= 0)
@@ -279,13 +279,18 @@ class JoinedReader : public RawReader {
     return issue;
   }
 
+  /// Sets the hash: that of the file if all parts are of one, else one of the hashes of all files.
   void finish() {
-    std::string hashes = first_->identity().sha256;
+    const LogIdentity& first = first_->identity();
+    std::string hashes = first.sha256;
+    bool is_one_file = true;
     for (Joined& joined : joined_) {
       joined.partner.read_rest();
-      hashes += joined.partner.reader().identity().sha256;
+      const LogIdentity& other = joined.partner.reader().identity();
+      is_one_file = is_one_file && other.path == first.path;
+      hashes += other.sha256;
     }
-    identity_.sha256 = sha256_hex(hashes);
+    identity_.sha256 = is_one_file ? first.sha256 : sha256_hex(hashes);
   }
 
   std::unique_ptr<RawReader> first_;
