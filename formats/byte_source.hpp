@@ -68,7 +68,8 @@ class FileBytes {
   std::string sha256_;
 };
 
-/// The bytes inside a file that is compressed as a whole, from front to back, in memory of fixed size.
+/// The bytes inside a file that is compressed as a whole, or written in another encoding, from front to back,
+/// in memory of fixed size.
 class Unpacker {
  public:
   Unpacker(const char* name, double byte_ns) : name_(name), byte_ns_(byte_ns) {}
@@ -89,13 +90,13 @@ class Unpacker {
   double byte_ns_;
 };
 
-/// Returns an unpacker for a file that begins as gzip or zstd, which reads from its beginning; null for any
-/// other. `file` must outlive it.
+/// Returns an unpacker for a file that begins as gzip, zstd or text in UTF-16 (its byte-order mark), which
+/// reads from its beginning; null for any other. `file` must outlive it.
 std::unique_ptr<Unpacker> unpacker_of(FileBytes& file);
 
-/// The bytes of a log from front to back: those of its file or, if the whole file is compressed (gzip, zstd),
-/// the unpacked ones. Every failure to read the file throws Error(input); damage of the compression ends the
-/// bytes and is reported in issues().
+/// The bytes of a log from front to back: those of its file or, if the whole file is compressed (gzip, zstd)
+/// or text in UTF-16, the unpacked ones or those in UTF-8. Every failure to read the file throws
+/// Error(input); damage of the compression ends the bytes and is reported in issues().
 class ByteSource {
  public:
   /// Without `hashed`, sha256() stays empty and reading is faster.
@@ -117,7 +118,7 @@ class ByteSource {
   double share_read() const { return file_.share_read(); }
   /// Size of the file in bytes, 0 for a pipe.
   std::int64_t file_size() const { return file_.size(); }
-  /// Name of the compression, or null for none: then a library may read the file by its path.
+  /// Name of the compression or encoding, or null for none: then a library may read the file by its path.
   const char* compression() const { return unpacker_ ? unpacker_->name() : nullptr; }
   /// Counts work on the bytes read so far. Throws Error(input) when it exceeds what a log of this size needs,
   /// see WorkBudget.

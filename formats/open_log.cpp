@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "formats/open_log.hpp"
 
+#include <fmt/format.h>
+
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -13,7 +15,65 @@
 namespace faultline {
 namespace {
 
-constexpr std::string_view kParquetMagic = "PAR1";
+/// A format that other programs convert, by its first bytes.
+struct ForeignFormat {
+  std::string_view magic;
+  const char* what;  ///< a sentence on what the file is and how to convert it, without its subject
+};
+
+constexpr ForeignFormat kForeignFormats[] = {
+    {"PAR1",
+     "is a Parquet file, which cannot be read directly; convert it, in Python with "
+     "pandas.read_parquet(\"run.parquet\").to_csv(\"run.csv\", index=False)"},
+    {"ARROW1",
+     "is a Feather (Arrow) file, which cannot be read directly; convert it, in Python with "
+     "pandas.read_feather(\"run.feather\").to_csv(\"run.csv\", index=False)"},
+    {"TDSm",
+     "is a TDMS file, which cannot be read directly; convert it, in Python with npTDMS: "
+     "nptdms.TdmsFile.read(\"run.tdms\").as_dataframe(time_index=True).to_csv(\"run.csv\", index_label=\"time\")"},
+    {"MDF     ",
+     "is an MDF file, which cannot be read directly; convert it, in Python with asammdf: "
+     "asammdf.MDF(\"run.mf4\").to_dataframe(raster=0.001).to_csv(\"run.csv\", index_label=\"time\"), where raster is "
+     "the sample period in s"},
+    {"UnFinMF ",
+     "is an MDF file that its recorder did not finish, which cannot be read directly; convert it, in Python with "
+     "asammdf: asammdf.MDF(\"run.mf4\").to_dataframe(raster=0.001).to_csv(\"run.csv\", index_label=\"time\"), where "
+     "raster is the sample period in s"},
+    {"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1",
+     "is an Excel workbook of the format before 2007, or another Office document; save the sheet with the log as CSV "
+     "in UTF-8, or convert it: libreoffice --headless --convert-to csv run.xls"},
+    {"\xFF\xFE", "holds text in UTF-16 inside another compression; unpack it first"},
+    {"\xFE\xFF", "holds text in UTF-16 inside another compression; unpack it first"},
+};
+
+/// Bytes that show whether a text is UTF-16 without its byte-order mark.
+constexpr std::size_t kEncodingBytes = 64;
+
+/// Returns "UTF-16LE" or "UTF-16BE" for a text of ASCII characters in that encoding; null for any other.
+const char* utf16_without_mark(std::string_view head) {
+  head = head.substr(0, kEncodingBytes);
+  for (const std::size_t high : {std::size_t{1}, std::size_t{0}}) {
+    bool is_text = head.size() > 3;
+    for (std::size_t i = 0; i < head.size(); ++i) is_text = is_text && (head[i] == '\0') == (i % 2 == high);
+    if (is_text) return high == 1 ? "UTF-16LE" : "UTF-16BE";
+  }
+  return nullptr;
+}
+
+/// Throws Error(input) with the way out for a file that no reader reads.
+[[noreturn]] void refuse_foreign(const std::string& path, std::string_view head) {
+  for (const ForeignFormat& format : kForeignFormats)
+    if (head.starts_with(format.magic)) throw Error(ErrorCode::input, path, format.what);
+  if (const char* encoding = utf16_without_mark(head))
+    throw Error(
+        ErrorCode::input, path,
+        fmt::format("is text in UTF-16 without a byte-order mark; convert it: iconv -f {} -t UTF-8 run.csv > "
+                    "run_utf8.csv",
+                    encoding));
+  throw Error(ErrorCode::input, path,
+              "has an unknown format: it is binary, but not " + either_of(log_extensions()) +
+                  ". Export it as CSV in UTF-8");
+}
 
 }  // namespace
 
@@ -27,13 +87,7 @@ std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed, const 
       reader->choose(choice);
       return reader;
     }
-  if (bytes->head().starts_with(kParquetMagic))
-    throw Error(ErrorCode::input, path,
-                "is a Parquet file, which cannot be read directly; convert it, in Python with "
-                "pandas.read_parquet(\"run.parquet\").to_csv(\"run.csv\", index=False)");
-  throw Error(ErrorCode::input, path,
-              "has an unknown format: it is binary, but not " + either_of(log_extensions()) +
-                  ". Export it as CSV in UTF-8");
+  refuse_foreign(path, bytes->head());
 }
 
 std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,

@@ -4,9 +4,12 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <new>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "formats/byte_source.hpp"
 #include "formats/bytes/work_budget.hpp"
@@ -131,11 +134,110 @@ class ZstdUnpacker : public BufferedUnpacker {
   bool inside_frame_ = false;
 };
 
+/// Converts text in UTF-16, which begins with its byte-order mark, to UTF-8 without one. Half of a pair of
+/// surrogates becomes U+FFFD.
+class Utf16Text : public BufferedUnpacker {
+ public:
+  Utf16Text(FileBytes& file, bool high_first)
+      : BufferedUnpacker(file, "UTF-16", kUtf16Byte_ns), high_first_(high_first) {}
+
+  std::size_t read(char* to, std::size_t size) override {
+    std::size_t written = 0;
+    while (written < size) {
+      if (at_ == text_.size() && !step()) break;
+      const std::size_t now = std::min(size - written, text_.size() - at_);
+      std::memcpy(to + written, text_.data() + at_, now);
+      written += now;
+      at_ += now;
+    }
+    return written;
+  }
+
+ private:
+  static constexpr std::uint32_t kMark = 0xFEFF, kReplacement = 0xFFFD;
+  static constexpr std::uint32_t kHighSurrogates = 0xD800, kLowSurrogates = 0xDC00,
+                                 kBehindSurrogates = 0xE000;
+
+  /// Converts the bytes in view to text_; false at the end.
+  bool step() {
+    text_.clear();
+    at_ = 0;
+    while (text_.empty() && !has_ended()) {
+      const std::string_view view = packed();
+      if (view.empty()) {
+        if (high_surrogate_ != 0) put(kReplacement);
+        high_surrogate_ = 0;
+        end(has_half_ ? "the file is cut" : "");
+        break;
+      }
+      for (const char byte : view) take_byte(static_cast<unsigned char>(byte));
+      take(view.size());
+    }
+    return !text_.empty();
+  }
+
+  void take_byte(std::uint32_t byte) {
+    has_half_ = !has_half_;
+    if (has_half_)
+      half_ = byte;
+    else
+      take_unit(high_first_ ? (half_ << 8) | byte : (byte << 8) | half_);
+  }
+
+  void take_unit(std::uint32_t unit) {
+    const bool is_first = std::exchange(is_first_, false);
+    if (is_first && unit == kMark) return;
+    const bool is_low = unit >= kLowSurrogates && unit < kBehindSurrogates;
+    if (const std::uint32_t high = std::exchange(high_surrogate_, 0); high != 0) {
+      constexpr int kSurrogateBits = 10;
+      constexpr std::uint32_t kFirstOfPairs = 0x10000;
+      if (is_low)
+        return put(kFirstOfPairs + ((high - kHighSurrogates) << kSurrogateBits) + (unit - kLowSurrogates));
+      put(kReplacement);
+    }
+    if (unit >= kHighSurrogates && unit < kLowSurrogates)
+      high_surrogate_ = unit;
+    else
+      put(is_low ? kReplacement : unit);
+  }
+
+  /// Appends a character in UTF-8.
+  void put(std::uint32_t character) {
+    constexpr std::uint32_t kOneByte = 0x80, kTwoBytes = 0x800,
+                            kThreeBytes = 0x10000;  // first that need more
+    constexpr int kBits = 6;                        // of a byte behind the first one
+    const auto behind = [&](int bytes) {
+      for (int i = bytes - 1; i >= 0; --i)
+        text_ += static_cast<char>(0x80 | ((character >> (kBits * i)) & 0x3F));
+    };
+    if (character < kOneByte) {
+      text_ += static_cast<char>(character);
+    } else if (character < kTwoBytes) {
+      text_ += static_cast<char>(0xC0 | (character >> kBits));
+      behind(1);
+    } else if (character < kThreeBytes) {
+      text_ += static_cast<char>(0xE0 | (character >> (2 * kBits)));
+      behind(2);
+    } else {
+      text_ += static_cast<char>(0xF0 | (character >> (3 * kBits)));
+      behind(3);
+    }
+  }
+
+  bool high_first_;
+  std::string text_;                             ///< converted, in part handed out
+  std::size_t at_ = 0;                           ///< bytes of it that were
+  std::uint32_t half_ = 0, high_surrogate_ = 0;  ///< 0 for no surrogate
+  bool has_half_ = false, is_first_ = true;
+};
+
 }  // namespace
 
 std::unique_ptr<Unpacker> unpacker_of(FileBytes& file) {
   if (file.head().starts_with(kGzipMagic)) return std::make_unique<GzipUnpacker>(file);
   if (file.head().starts_with(kZstdMagic)) return std::make_unique<ZstdUnpacker>(file);
+  if (file.head().starts_with("\xFF\xFE")) return std::make_unique<Utf16Text>(file, false);
+  if (file.head().starts_with("\xFE\xFF")) return std::make_unique<Utf16Text>(file, true);
   return nullptr;
 }
 

@@ -51,6 +51,7 @@ constexpr std::int64_t unpack_work_ns(double byte_ns, std::int64_t bytes) {
   return static_cast<std::int64_t>(byte_ns * static_cast<double>(bytes));
 }
 inline constexpr double kZstdByte_ns = 1.0, kLz4Byte_ns = 1.0, kDeflateByte_ns = 3.0, kBz2Byte_ns = 10.0;
+inline constexpr double kUtf16Byte_ns = 5.0;
 
 /// Returns the work, ns, of handing on a table.
 constexpr std::int64_t table_work_ns(std::int64_t rows, std::int64_t columns) {

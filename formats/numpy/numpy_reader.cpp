@@ -270,7 +270,9 @@ std::string other_archive(const std::vector<StoredContent>& members) {
     return std::any_of(members.begin(), members.end(),
                        [&](const StoredContent& member) { return member.name.starts_with(begin); });
   };
-  if (has("xl/")) return "is an Excel workbook; save the sheet with the log as CSV in UTF-8";
+  if (has("xl/"))
+    return "is an Excel workbook; save the sheet with the log as CSV in UTF-8, or convert it: libreoffice "
+           "--headless --convert-to csv run.xlsx";
   if (has("content.xml")) return "is an OpenDocument file; save the sheet with the log as CSV in UTF-8";
   if (has("word/") || has("ppt/")) return "is an Office document, not a log; export the log itself as CSV";
   std::string names;
