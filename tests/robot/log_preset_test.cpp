@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <utility>
+
 #include "formats/open_log.hpp"
 #include "lib/core/error.hpp"
 #include "lib/robot/robot_file.hpp"
@@ -57,6 +60,36 @@ TEST(LogPreset, MecademicHasDegreesAndSharesOfTheRatedTorque) {
   EXPECT_DOUBLE_EQ(read.tau[0][0], 0.5);
 }
 
+TEST(LogPreset, FactoryNetCountsJointsFromZeroAndHasSetpoints) {
+  const TemporaryFolder folder;
+  const std::string log = folder.write(
+      "run.csv",
+      "timestamp_ms,setpoint_pos_0,setpoint_pos_1,setpoint_vel_0,setpoint_vel_1,effort_torque_0,effort_torque_1,"
+      "effort_current_0,effort_current_1,feedback_pos_0,feedback_pos_1,feedback_vel_0,feedback_vel_1\n"
+      "0,1,2,3,4,5,6,9,9,1.5,2.5,3.5,4.5\n8,1,2,3,4,5,6,9,9,1.5,2.5,3.5,4.5\n");
+  const Log read = read_with("axes = \"RR\"\n[log]\npreset = \"factorynet\"\n", log);
+  EXPECT_EQ(read.time, (Values{0, 0.008}));
+  EXPECT_EQ(read.q[1], (Values{2.5, 2.5}));
+  EXPECT_EQ(read.q_ref[0], (Values{1, 1}));
+  EXPECT_EQ(read.dq[1], (Values{4.5, 4.5}));
+  EXPECT_EQ(read.tau[1], (Values{6, 6}));
+}
+
+TEST(LogPreset, ServoLoggersCountStepsAndCurrent) {
+  const TemporaryFolder folder;
+  const std::string log = folder.write("run.csv",
+                                       "time,pos (1),load (1),current (1),pos (2),load (2),current (2)\n"
+                                       "0,2048,120,100,1024,-80,-200\n0.02,2049,120,100,1024,-80,-200\n");
+  for (const auto& [preset, ampere] : {std::pair{"feetech", 0.0065}, std::pair{"dynamixel", 0.00269}}) {
+    const std::string robot = std::string("axes = \"RR\"\n[log]\npreset = \"") + preset + "\"\n";
+    const Log read = read_with(robot, log);
+    EXPECT_DOUBLE_EQ(read.q[0][0], std::numbers::pi) << preset;
+    EXPECT_DOUBLE_EQ(read.q[1][0], std::numbers::pi / 2) << preset;
+    EXPECT_DOUBLE_EQ(read.tau[1][0], -200 * ampere) << preset;
+    EXPECT_EQ(robot_from_toml(robot, "robot.toml").log.torque, TorqueMeaning::current);
+  }
+}
+
 TEST(LogPreset, TheRobotFileOverridesThePreset) {
   const Robot robot = robot_from_toml(
       "axes = \"RR\"\n[log]\npreset = \"ur-rtde\"\ntorque = \"measured\"\n[log.columns]\nq2 = \"mine\"\n",
@@ -82,7 +115,9 @@ TEST(LogPreset, AnUnknownPresetIsRefusedWithTheKnownOnes) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::usage);
-    EXPECT_NE(error.message().find("franka, mecademic, ur-rtde"), std::string::npos) << error.message();
+    EXPECT_NE(error.message().find("dynamixel, factorynet, feetech, franka, mecademic, ur-rtde"),
+              std::string::npos)
+        << error.message();
   }
 }
 
