@@ -124,6 +124,35 @@ std::size_t behind_first_line(const std::vector<CsvLine>& lines, int fields) {
   return std::min(static_cast<std::size_t>(header - lines.begin()) + 1, lines.size());
 }
 
+using LinePlace = std::span<const CsvLine>::iterator;
+
+/// True when the line has a text where `row` has a number: it is of another kind.
+bool is_unlike(const CsvLine& line, const CsvLine& row, char decimal) {
+  for (std::size_t f = 0; f < line.fields.size(); ++f)
+    if (read_cell(line.fields[f], decimal).kind == CellKind::text &&
+        read_cell(row.fields[f], decimal).kind == CellKind::number)
+      return true;
+  return false;
+}
+
+/// Returns the first row of the table; the end if there is none. Lines such as "Speed,5" above the header of
+/// a table of two columns are none.
+LinePlace first_row(std::span<const CsvLine> lines, int fields, char decimal) {
+  const auto is_row = [&](const CsvLine& line) { return is_data(line, fields); };
+  const auto is_header = [&](const CsvLine& line) { return !line.comment && line.texts == fields; };
+  LinePlace row = std::find_if(lines.begin(), lines.end(), is_row);
+  while (row != lines.end()) {
+    const LinePlace header = std::find_if(row, lines.end(), is_header);
+    const LinePlace below = std::find_if(header, lines.end(), is_row);
+    if (below == lines.end()) break;
+    const bool above_only = std::all_of(
+        row, header, [&](const CsvLine& line) { return !is_row(line) || is_unlike(line, *below, decimal); });
+    if (!above_only) break;
+    row = below;
+  }
+  return row;
+}
+
 }  // namespace
 
 void LastCells::add(std::string_view cell, char decimal) {
@@ -166,12 +195,11 @@ CsvDialect find_dialect(std::string_view head) {
   choose_separator(lines, dialect);
   if (find_scope_columns(lines, dialect)) return dialect;
   const int fields = usual_fields(lines);
-  const auto row =
-      std::find_if(lines.begin(), lines.end(), [&](const CsvLine& line) { return is_data(line, fields); });
-  const bool has_rows = row != lines.end();
-  const std::size_t data =
-      has_rows ? static_cast<std::size_t>(row - lines.begin()) : behind_first_line(lines, fields);
   const std::span<const CsvLine> all(lines);
+  const LinePlace row = first_row(all, fields, dialect.decimal);
+  const bool has_rows = row != all.end();
+  const std::size_t data =
+      has_rows ? static_cast<std::size_t>(row - all.begin()) : behind_first_line(lines, fields);
   dialect.sparse = is_sparse_table(all.subspan(data), fields, dialect.decimal);
   find_columns(all.first(data), has_rows ? all.subspan(data) : all.last(0), fields, dialect);
   for (const CsvLine& line : all.subspan(data))

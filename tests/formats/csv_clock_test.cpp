@@ -99,6 +99,14 @@ TEST(CsvClock, ATimeOfDayNeedsNoNameOfATime) {
             (Values{kNoon, kNoon + 1}));
 }
 
+TEST(CsvClock, ADateAboveTheHeaderOfATableOfTwoColumnsIsNoRow) {
+  const auto [log, identity, issues] = read_csv("Robot,7-b\nDate,13.03.2024\nSpeed,5\nt,q1\n0,1\n1,x\n2,3\n");
+  EXPECT_EQ(log.time, (Values{0, 1, 2}));
+  EXPECT_EQ(identity.rows_read, 3);
+  ASSERT_NE(issues.find("preamble_skipped"), nullptr);
+  EXPECT_EQ(issues.find("preamble_skipped")->count, 3);
+}
+
 TEST(CsvClock, ADayAbove12ShowsTheOrderOfAllDates) {
   const auto [log, identity, issues] =
       read_csv("stamp,q1\n12/03/2024 23:59:59,1\n13/03/2024 00:00:00,2\n13/03/2024 00:00:01,3\n");
