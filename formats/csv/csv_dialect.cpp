@@ -137,7 +137,7 @@ bool is_unlike(const CsvLine& line, const CsvLine& row, char decimal) {
 
 /// Returns the first row of the table; the end if there is none. Lines such as "Speed,5" above the header of
 /// a table of two columns are none.
-LinePlace first_row(std::span<const CsvLine> lines, int fields, char decimal) {
+LinePlace first_table_row(std::span<const CsvLine> lines, int fields, char decimal) {
   const auto is_row = [&](const CsvLine& line) { return is_data(line, fields); };
   const auto is_header = [&](const CsvLine& line) { return !line.comment && line.texts == fields; };
   LinePlace row = std::find_if(lines.begin(), lines.end(), is_row);
@@ -196,7 +196,7 @@ CsvDialect find_dialect(std::string_view head) {
   if (find_scope_columns(lines, dialect)) return dialect;
   const int fields = usual_fields(lines);
   const std::span<const CsvLine> all(lines);
-  const LinePlace row = first_row(all, fields, dialect.decimal);
+  const LinePlace row = first_table_row(all, fields, dialect.decimal);
   const bool has_rows = row != all.end();
   const std::size_t data =
       has_rows ? static_cast<std::size_t>(row - all.begin()) : behind_first_line(lines, fields);

@@ -45,7 +45,7 @@ void add_cell(std::string_view cell, ClockCells& cells) {
   cells.either += clock->order == DateOrder::either;
 }
 
-std::string_view cell_of(const CsvLine& row, std::size_t column, const CsvDialect& dialect) {
+std::string_view clock_cell_of(const CsvLine& row, std::size_t column, const CsvDialect& dialect) {
   return row.fields[static_cast<std::size_t>(dialect.value_fields[column])];
 }
 
@@ -55,7 +55,7 @@ std::vector<ClockCells> clock_cells(std::span<const CsvLine> rows, const CsvDial
   for (const CsvLine& row : rows) {
     if (!is_data(row, dialect.fields)) continue;
     for (std::size_t i = 0; i < columns.size(); ++i)
-      if (const auto cell = cell_of(row, i, dialect);
+      if (const auto cell = clock_cell_of(row, i, dialect);
           read_cell(cell, dialect.decimal).kind != CellKind::missing)
         add_cell(cell, columns[i]);
   }
@@ -80,7 +80,7 @@ void find_date_order(const std::vector<ClockCells>& columns, CsvDialect& dialect
 }
 
 /// Returns the column whose cells are all of this kind: `named` if it is one, else the only one; -1 for none.
-int column_of(const std::vector<ClockCells>& columns, int ClockCells::*kind, int named) {
+int clock_column_of(const std::vector<ClockCells>& columns, int ClockCells::*kind, int named) {
   if (named >= 0 && columns[static_cast<std::size_t>(named)].are(kind)) return named;
   int only = -1;
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -94,9 +94,9 @@ int column_of(const std::vector<ClockCells>& columns, int ClockCells::*kind, int
 /// Finds a time that is written as date and time of day, in one or two columns, under any name. A column of
 /// numbers with the name of a time is preferred. True when there is one.
 bool find_clock(const std::vector<ClockCells>& columns, int named, CsvDialect& dialect) {
-  const int date = column_of(columns, &ClockCells::dates, named);
-  const int of_day = column_of(columns, &ClockCells::times_of_day, named);
-  const int both = column_of(columns, &ClockCells::both, named);
+  const int date = clock_column_of(columns, &ClockCells::dates, named);
+  const int of_day = clock_column_of(columns, &ClockCells::times_of_day, named);
+  const int both = clock_column_of(columns, &ClockCells::both, named);
   int time = named;
   if (date >= 0 && of_day >= 0 && (named < 0 || named == date || named == of_day)) {
     time = of_day;
@@ -112,17 +112,19 @@ bool find_clock(const std::vector<ClockCells>& columns, int named, CsvDialect& d
   return true;
 }
 
-std::vector<double> values_of(std::span<const CsvLine> rows, std::size_t column, const CsvDialect& dialect) {
+std::vector<double> cell_values_of(std::span<const CsvLine> rows, std::size_t column,
+                                   const CsvDialect& dialect) {
   std::vector<double> values;
   for (const CsvLine& row : rows)
     if (is_data(row, dialect.fields))
-      values.push_back(read_cell(cell_of(row, column, dialect), dialect.decimal, dialect.day_first).value);
+      values.push_back(
+          read_cell(clock_cell_of(row, column, dialect), dialect.decimal, dialect.day_first).value);
   return values;
 }
 
 /// Sets the unit of a time without unit to the one that its steps suggest.
 void find_time_unit(std::span<const CsvLine> rows, std::size_t time, CsvDialect& dialect) {
-  const std::vector<double> times = values_of(rows, time, dialect);
+  const std::vector<double> times = cell_values_of(rows, time, dialect);
   if (!times.empty() && is_filetime(times.front())) {
     dialect.time_column = static_cast<int>(time);
     dialect.filetime = true;
@@ -132,7 +134,7 @@ void find_time_unit(std::span<const CsvLine> rows, std::size_t time, CsvDialect&
   for (std::size_t i = 0; i < dialect.columns.size(); ++i)
     if (const auto quantity = parse_name(dialect.columns[i].name).quantity;
         quantity == Quantity::q || quantity == Quantity::dq)
-      moving.push_back({dialect.columns[i].name, values_of(rows, i, dialect)});
+      moving.push_back({dialect.columns[i].name, cell_values_of(rows, i, dialect)});
   const CountedTime counted = counted_time(times, moving);
   dialect.columns[time].unit = counted.unit;
   dialect.columns[time].unit_assumed = !counted.why.empty();

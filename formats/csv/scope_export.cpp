@@ -124,7 +124,7 @@ std::vector<ScopeGroup> groups_of(const ScopeHead& head, std::span<const CsvLine
 }
 
 /// Puts channels with the same times together; stops when there are more groups than a file may have.
-std::vector<ScopeGroup> merged(std::vector<ScopeGroup> groups) {
+std::vector<ScopeGroup> merged_groups(std::vector<ScopeGroup> groups) {
   std::vector<ScopeGroup> different;
   for (ScopeGroup& group : groups) {
     const auto same = std::find_if(different.begin(), different.end(),
@@ -172,7 +172,8 @@ class ScopeNames {
   std::set<std::string> taken_;
 };
 
-OwnTimeColumns columns_of(const ScopeGroup& group, const ScopeHead& head, bool filetime, ScopeNames& names) {
+OwnTimeColumns scope_columns_of(const ScopeGroup& group, const ScopeHead& head, bool filetime,
+                                ScopeNames& names) {
   OwnTimeColumns own;
   own.columns.push_back({kScopeTime, filetime ? "s" : "ms", Channel{}});
   own.value_fields.push_back(static_cast<int>(group.time));
@@ -275,7 +276,7 @@ bool begins_like_scope_export(std::string_view head) {
 bool find_scope_columns(std::span<const CsvLine> lines, CsvDialect& dialect) {
   const ScopeHead head = scope_head(lines, dialect.decimal);
   if (!head.is_scope()) return false;
-  std::vector<ScopeGroup> groups = merged(groups_of(head, lines.subspan(head.data), dialect.decimal));
+  std::vector<ScopeGroup> groups = merged_groups(groups_of(head, lines.subspan(head.data), dialect.decimal));
   if (groups.empty()) return false;
   std::stable_sort(groups.begin(), groups.end(), [](const ScopeGroup& a, const ScopeGroup& b) {
     return std::tuple(-a.joint_signals, -std::ssize(a.channels), a.step()) <
@@ -287,7 +288,7 @@ bool find_scope_columns(std::span<const CsvLine> lines, CsvDialect& dialect) {
   dialect.has_header = dialect.ends_early = true;
   ScopeNames names(head);
   for (const ScopeGroup& group : groups)
-    dialect.others.push_back(columns_of(group, head, dialect.filetime, names));
+    dialect.others.push_back(scope_columns_of(group, head, dialect.filetime, names));
   dialect.columns = dialect.others.front().columns;
   dialect.value_fields = dialect.others.front().value_fields;
   dialect.others.erase(dialect.others.begin());
