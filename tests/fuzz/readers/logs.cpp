@@ -29,6 +29,18 @@ std::int64_t read_through(LogSource& source) {
   return rows;
 }
 
+/// Options under which a position is a field of the messages of a seed.
+OpenLogOptions with_message_field() {
+  constexpr const char *kTopic = "/arm/state", *kField = "feedback.positions[0]";
+  ColumnSpec position;
+  position.topic = kTopic;
+  position.name = std::string(kTopic) + "/" + kField;
+  OpenLogOptions options;
+  options.columns["q1"] = position;
+  options.recording.fields = {{kTopic, kField}};
+  return options;
+}
+
 }  // namespace
 
 void feed_log(const std::string& bytes) {
@@ -42,6 +54,7 @@ void feed_log(const std::string& bytes) {
     demand(source->issues().all().size() == issues.all().size(), "so are its issues");
   });
   read_or_refuse([&] { inspect_log(path, std::nullopt, {}); });
+  read_or_refuse([&] { read_through(*open_log(path, with_message_field())); });
 }
 
 }  // namespace faultline
