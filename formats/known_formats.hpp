@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "formats/byte_source.hpp"
 #include "formats/log_writer.hpp"
@@ -21,6 +22,15 @@ std::unique_ptr<RawReader> open_csv(std::unique_ptr<ByteSource> bytes);
 /// Creates comma-separated text: header `t,q1..,dq1..,tau1..`, further channels after them, the shortest
 /// digits that restore the same double, an empty cell for a missing value.
 std::unique_ptr<LogWriter> create_csv(const std::string& path);
+
+/// True for the header of a DIAdem recording, such as one of KUKA Trace.
+bool looks_like_diadem(std::string_view head);
+/// Opens a DIAdem header with the data files beside it, see docs/formats-kuka.md. Its hash is that of all
+/// files.
+std::unique_ptr<RawReader> open_diadem(std::unique_ptr<ByteSource> bytes);
+/// Returns the paths of the data files that the header names and that exist. Throws Error(input) for a header
+/// that cannot be read.
+std::vector<std::string> files_beside_diadem(ByteSource& bytes);
 
 /// True when the file is HDF5, also after a block that another program put before it.
 bool looks_like_hdf5(std::string_view head);

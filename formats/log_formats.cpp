@@ -9,7 +9,8 @@
 namespace faultline {
 
 const std::vector<LogFormat>& log_formats() {
-  // MATLAB comes before HDF5, on which its version 7.3 is based. CSV comes last, as it accepts any text.
+  // MATLAB comes before HDF5, on which its version 7.3 is based. CSV comes last, as it accepts any text; the
+  // headers of DIAdem share its extension .dat.
   static const std::vector<LogFormat> table{
       {"native", "binary, exact, fast", {".flog"}, looks_like_native, open_native, create_native},
       {"mcap", "for Foxglove and PlotJuggler", {".mcap"}, looks_like_mcap, open_mcap, create_mcap},
@@ -19,6 +20,7 @@ const std::vector<LogFormat>& log_formats() {
       {"hdf5", "HDF5", {".h5", ".hdf5"}, looks_like_hdf5, open_hdf5, create_hdf5},
       {"npz", "for NumPy", {".npz"}, looks_like_npz, open_npz, create_npz},
       {"npy", "one array of NumPy", {".npy"}, looks_like_npy, open_npy, nullptr},
+      {"diadem", "DIAdem, such as KUKA Trace", {}, looks_like_diadem, open_diadem, nullptr},
       {"csv", "text", {".csv", ".txt", ".tsv", ".dat"}, looks_like_csv, open_csv, create_csv},
   };
   return table;

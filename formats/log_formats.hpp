@@ -16,7 +16,7 @@ namespace faultline {
 struct LogFormat {
   const char* name;
   const char* what;  ///< a description for the user who must choose one
-  /// Usual extensions of its files; a log is written under the first one.
+  /// Usual extensions of its files that no other format has; a log is written under the first one.
   std::vector<std::string> extensions;
   /// True when a file that begins like this, with up to 64 KiB, is of this format.
   bool (*matches)(std::string_view head);

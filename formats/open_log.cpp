@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "formats/known_formats.hpp"
 #include "formats/log_formats.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/mapped_source.hpp"
@@ -111,6 +113,17 @@ std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOption
   return mended(std::make_unique<MappedSource>(
       open_parts(path, options.parts, options.recording),
       MappedSourceOptions{options.columns, options.parts.run, options.segment_rows, options.keep_extra}));
+}
+
+std::vector<std::string> files_beside(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  try {
+    ByteSource bytes(path, false);
+    return looks_like_diadem(bytes.head()) ? files_beside_diadem(bytes) : std::vector<std::string>{};
+  } catch (const Error&) {
+    return {};  // whoever reads the log reports it
+  }
 }
 
 }  // namespace faultline

@@ -43,4 +43,8 @@ std::unique_ptr<RawReader> open_raw(const std::string& path, bool hashed = true,
 std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelection& parts,
                                       const RecordingChoice& choice);
 
+/// Returns the other files that belong to the log at `path`, such as the data files of a DIAdem header; empty
+/// for a log of one file, and for what cannot be read.
+std::vector<std::string> files_beside(const std::string& path);
+
 }  // namespace faultline

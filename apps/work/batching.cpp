@@ -10,6 +10,7 @@
 #include "apps/work/file_use.hpp"
 #include "apps/work/robot_log.hpp"
 #include "formats/log_formats.hpp"
+#include "formats/open_log.hpp"
 #include "lib/batch/find_logs.hpp"
 #include "lib/batch/run_batch.hpp"
 #include "lib/core/error.hpp"
@@ -65,6 +66,7 @@ std::vector<BatchLog> claimed_logs(const BatchRequest& request) {
     throw Error(
         ErrorCode::input, request.paths.front(),
         "contains no log; known extensions are " + fmt::format("{}", fmt::join(log_extensions(), " ")));
+  for (BatchLog& log : logs) log.beside = files_beside(log.path);
   logs = with_models(std::move(logs), folders_of(request.models));
   claim_files(request, logs);
   return logs;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <regex>
 
+#include "formats/open_log.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/cases/sqlite.hpp"
 #include "lib/core/error.hpp"
@@ -64,7 +65,9 @@ void FileUse::keep(const std::string& what, const std::string& path) {
 
 FileUse& FileUse::reads(const std::string& what, const std::string& path) {
   std::error_code ignored;
-  if (fs::exists(path, ignored)) keep(what, path);
+  if (!fs::exists(path, ignored)) return *this;
+  keep(what, path);
+  for (const std::string& data : files_beside(path)) keep("the data file of " + what, data);
   return *this;
 }
 

@@ -21,7 +21,7 @@ struct ModelPaths {
 class FileUse {
  public:
   /// `what` is its name for the user: "the log". A path that does not exist is no input, such as the axes
-  /// RRP.
+  /// RRP. Of a log, the data files beside it are inputs as well.
   FileUse& reads(const std::string& what, const std::string& path);
   FileUse& reads(const std::string& what, const std::vector<std::string>& paths);
   /// The model and its case base, with the journals of SQLite beside it, existing or not.

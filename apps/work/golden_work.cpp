@@ -11,6 +11,7 @@
 #include "apps/work/file_use.hpp"
 #include "apps/work/labels.hpp"
 #include "apps/work/robot_log.hpp"
+#include "formats/open_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/files/output_place.hpp"
@@ -34,6 +35,16 @@ void claim_files(const RecordArguments& arguments) {
       files.writes_kept("-o", copy);
   }
   files.claim();
+}
+
+/// Throws Error(usage) for a log of several files, as a golden folder keeps one file a log.
+void refuse_logs_of_several_files(const std::vector<std::string>& logs) {
+  for (const std::string& log : logs)
+    if (const std::vector<std::string> beside = files_beside(log); !beside.empty())
+      throw Error(
+          ErrorCode::usage, log,
+          "has its values in another file, " + beside.front() +
+              ", but a golden folder keeps one file a log; write one first: faultline convert LOG run.flog");
 }
 
 /// Returns the folder's own name, without its path on this machine.
@@ -122,6 +133,7 @@ std::vector<std::string> skip_label_tables(std::vector<std::string>& logs) {
 
 Recorded record_folder(const RecordArguments& arguments, const Progress& progress) {
   claim_files(arguments);
+  refuse_logs_of_several_files(arguments.logs);
   make_folder(arguments.folder);
   return record_golden(arguments.folder, arguments.logs, arguments.model, arguments.case_base(),
                        open_golden_log, arguments.options, progress);

@@ -11,7 +11,8 @@ struct BatchLog {
   /// What every result calls it: below a folder that was given, with that folder's own name in front; the
   /// bare file name of a file that was given. No folder of a machine is in it.
   std::string name;
-  int model = 0;  ///< place in the models of the batch
+  int model = 0;                      ///< place in the models of the batch
+  std::vector<std::string> beside{};  ///< paths of the other files that the log consists of
 };
 
 /// The logs at `paths`, files and folders in any order, each once, sorted by name. A file that was given is

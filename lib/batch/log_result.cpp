@@ -40,10 +40,17 @@ std::vector<ParameterValue> parameters_in(LogSource& log, const Robot& robot) {
   return parameters;
 }
 
+/// Returns the hash of all files of the log.
+std::string sha256_of_log(const BatchLog& log) {
+  std::vector<std::string> paths{log.path};
+  paths.insert(paths.end(), log.beside.begin(), log.beside.end());
+  return sha256_of_files(paths);
+}
+
 /// Reads the file a second time only when it was written to meanwhile and may have the same content.
 void refuse_changed(const BatchLog& log, const FileStamp& before, const std::string& sha256_read) {
   const FileStamp now = stamp_of(log.path);
-  if (now == before || (now.bytes == before.bytes && sha256_of_file(log.path) == sha256_read)) return;
+  if (now == before || (now.bytes == before.bytes && sha256_of_log(log) == sha256_read)) return;
   throw Error(ErrorCode::input, log.path, "changed while it was read; run again when it is complete");
 }
 
@@ -113,7 +120,7 @@ JournalEntry unusable_result(const BatchLog& log, const FileStamp& before, const
   std::error_code error;
   if (!std::filesystem::is_regular_file(log.path, error)) return entry;
   try {
-    entry.row.sha256 = sha256_of_file(log.path);
+    entry.row.sha256 = sha256_of_log(log);
   } catch (const Error& unreadable) {
     entry.row = unusable_row(log.name, log.path, unreadable, model);
     return entry;
@@ -130,7 +137,7 @@ EarlierResults::EarlierResults(const BatchFolder& folder)
 
 const JournalEntry* EarlierResults::find(const BatchLog& log, const std::string& settings) const {
   if (!logs_.count(valid_utf8(log.name))) return nullptr;
-  const auto found = entries_.find(result_key(settings, log, sha256_of_file(log.path)));
+  const auto found = entries_.find(result_key(settings, log, sha256_of_log(log)));
   return found != entries_.end() && is_intact(found->second, folder_) ? &found->second : nullptr;
 }
 

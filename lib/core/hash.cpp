@@ -60,4 +60,11 @@ std::string sha256_of_file(const std::string& path) {
   return hash.hex();
 }
 
+std::string sha256_of_files(const std::vector<std::string>& paths) {
+  if (paths.size() == 1) return sha256_of_file(paths.front());
+  std::string hashes;
+  for (const std::string& path : paths) hashes += sha256_of_file(path);
+  return sha256_hex(hashes);
+}
+
 }  // namespace faultline

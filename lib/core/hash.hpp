@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace faultline {
 
@@ -27,5 +28,8 @@ class Sha256 {
 std::string sha256_hex(std::string_view bytes);
 /// Throws Error(input) if the file cannot be read.
 std::string sha256_of_file(const std::string& path);
+/// Returns the hash of a log of several files: of their hashes one after another; of one file its own. Throws
+/// as sha256_of_file().
+std::string sha256_of_files(const std::vector<std::string>& paths);
 
 }  // namespace faultline

@@ -41,8 +41,9 @@ Kind kind_of(char c) {
   return std::isalpha(byte) ? Kind::lower : Kind::other;
 }
 
-/// Returns the words of a name, in lower case, and its numbers; "actualPos_12" gives actual, pos, 12.
-std::vector<std::string> tokens_of(const std::string& name) {
+/// Returns the runs of letters of a name, in lower case, and its numbers; "actualPos_12" gives actual,
+/// pos, 12.
+std::vector<std::string> letter_runs_of(const std::string& name) {
   std::vector<std::string> tokens;
   Kind before = Kind::other;
   for (const char c : name) {
@@ -59,14 +60,30 @@ bool among(const std::string& word, std::initializer_list<std::string_view> word
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+/// Returns the letter runs of a name, with German compounds divided: "Sollposition_12" gives soll,
+/// position, 12.
+std::vector<std::string> tokens_of(const std::string& name) {
+  std::vector<std::string> words;
+  for (std::string& run : letter_runs_of(name)) {
+    for (const std::string_view first : {"soll", "ist"})
+      if (run.starts_with(first) && among(run.substr(first.size()), {"position", "winkel", "geschwindigkeit",
+                                                                     "moment", "drehmoment", "kraft"})) {
+        words.emplace_back(first);
+        run.erase(0, first.size());
+      }
+    words.push_back(std::move(run));
+  }
+  return words;
+}
+
 bool is_reference(const std::string& word) {
   return among(
       word, {"ref", "reference", "des", "desired", "set", "setpoint", "target", "cmd", "command", "commanded",
-             "goal", "qg", "references", "setpoints", "targets", "cmds", "commands", "goals"});
+             "goal", "qg", "references", "setpoints", "targets", "cmds", "commands", "goals", "soll"});
 }
 
 bool is_measurement(const std::string& word) {
-  return among(word, {"meas", "measured", "actual", "act", "feedback", "fb", "state", "states", "qm"});
+  return among(word, {"meas", "measured", "actual", "act", "feedback", "fb", "state", "states", "qm", "ist"});
 }
 
 /// Words of columns that are related to a joint signal but are none.
@@ -78,6 +95,7 @@ bool is_something_else(const std::string& word) {
                       "output",  "multi",    "temp",      "temperature", "voltage",      "sec",
                       "nanosec", "stamp",    "cartesian", "wrench",      "ft",           "ee",
                       "jerk",    "removed",  "scaling",   "factor",      "pid"}) ||
+         among(word, {"schleppfehler", "fehler", "differenz", "beschleunigung", "temperatur", "grenze"}) ||
          among(word, {"cart", "gripper", "flange", "world", "override", "x", "y", "z", "rx", "ry", "rz",
                       "roll", "pitch", "yaw"});
 }
@@ -85,18 +103,19 @@ bool is_something_else(const std::string& word) {
 /// Words on how, or at which side of a joint, something was measured.
 bool is_decoration(const std::string& word) {
   return is_reference(word) || is_measurement(word) ||
-         among(word, {"con",   "ctrl",  "control", "filt", "filtered", "lp",    "raw",
-                      "motor", "link",  "load",    "gear", "encoder",  "enc",   "abs",
-                      "rel",   "joint", "joints",  "axis", "values",   "value", "data"});
+         among(word, {"con",    "ctrl", "control", "filt",    "filtered", "lp",    "raw",    "motor",
+                      "link",   "load", "gear",    "encoder", "enc",      "abs",   "rel",    "joint",
+                      "joints", "axis", "values",  "value",   "data",     "achse", "achsen", "gelenk"});
 }
 
 std::optional<Quantity> quantity_of(const std::string& word) {
-  if (among(word, {"q", "qm", "qg", "pos", "position", "positions", "angle", "angles", "theta"}))
+  if (among(word, {"q", "qm", "qg", "pos", "position", "positions", "angle", "angles", "theta", "winkel"}))
     return Quantity::q;
-  if (among(word,
-            {"dq", "qd", "qdot", "vel", "velocity", "velocities", "speed", "speeds", "omega", "dtheta"}))
+  if (among(word, {"dq", "qd", "qdot", "vel", "velocity", "velocities", "speed", "speeds", "omega", "dtheta",
+                   "geschwindigkeit"}))
     return Quantity::dq;
-  if (among(word, {"tau", "torque", "torques", "trq", "effort", "efforts", "moment", "force", "forces"}))
+  if (among(word, {"tau", "torque", "torques", "trq", "effort", "efforts", "moment", "force", "forces",
+                   "drehmoment", "kraft"}))
     return Quantity::tau;
   return std::nullopt;
 }

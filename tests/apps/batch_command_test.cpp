@@ -66,6 +66,19 @@ TEST(BatchCommand, IdentifiesTheRobotFromEachHealthyLogForTrends) {
   EXPECT_NE(read_file(out + "/index.html").find("% from median"), std::string::npos);
 }
 
+TEST(BatchCommand, ALogIsReadAgainWhenItsDataFileHasChanged) {
+  const BatchWorld world;
+  write_file(world.logs() + "/trace.dat",
+             "DIAEXTENDED\n#BEGINCHANNELHEADER\n200,q1\n210,EXPLIZIT\n211,trace.r64\n213,BLOCK\n"
+             "214,REAL64\n220,2\n221,1\n#ENDCHANNELHEADER\n");
+  const std::string out = world.file("out");
+  EXPECT_EQ(run_program(world.command(out)).status, 3);
+  EXPECT_NE(read_file(out + "/index.ndjson").find("is not in the folder of the header"), std::string::npos);
+  write_file(world.logs() + "/trace.r64", "0123456789abcdef");
+  EXPECT_EQ(run_program(world.command(out)).status, 3);
+  EXPECT_NE(read_file(out + "/index.ndjson").find("no column for the time"), std::string::npos);
+}
+
 TEST(BatchCommand, ABadLogGetsARowWithItsReasonAndTheBatchContinues) {
   const BatchWorld world;
   world.add_logs(2);

@@ -74,6 +74,16 @@ TEST_F(FileUseOfCommands, ConvertAndInspectKeepTheirInputs) {
   expect_refused({"inspect", "@a.csv", "@b.csv", "--json", "@b.csv"}, {"--json", "the log", "b.csv"});
 }
 
+TEST_F(FileUseOfCommands, TheDataFileBesideAHeaderIsAnInput) {
+  folder_.write("trace.dat",
+                "DIAEXTENDED\n#BEGINCHANNELHEADER\n200,q1\n210,EXPLIZIT\n211,Trace.csv\n213,BLOCK\n"
+                "214,REAL64\n220,2\n221,1\n#ENDCHANNELHEADER\n");
+  folder_.write("trace.csv", "0123456789abcdef");
+  expect_refused({"convert", "@trace.dat", "@trace.csv"},
+                 {"OUT", "would overwrite the data file of the log", "trace.csv"});
+  expect_refused({"inspect", "@trace.dat", "--json", "@trace.csv"}, {"--json", "the data file of the log"});
+}
+
 TEST_F(FileUseOfCommands, DiagnoseKeepsTheLogTheModelAndItsCases) {
   const std::vector<std::string> diagnose = {"diagnose", "@a.csv", "--model", "@m"};
   const auto with = [&](std::vector<std::string> more) {

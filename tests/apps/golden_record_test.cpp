@@ -67,6 +67,18 @@ TEST_F(GoldenRecord, ReportsWhyNoRobotIsIdentified) {
   EXPECT_FALSE(has(read_file(golden_.outside("other") + "/golden.toml"), "[identification]"));
 }
 
+TEST_F(GoldenRecord, RefusesALogWhoseValuesAreInAnotherFile) {
+  const std::string trace = golden_.outside("trace.dat"), data = golden_.outside("trace.r64");
+  write_file(trace,
+             "DIAEXTENDED\n#BEGINCHANNELHEADER\n200,q1\n210,EXPLIZIT\n211,trace.r64\n213,BLOCK\n"
+             "214,REAL64\n220,2\n221,1\n#ENDCHANNELHEADER\n");
+  write_file(data, "0123456789abcdef");
+  const ProgramRun run = record(made_, {trace});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_TRUE(has(run.err, "a golden folder keeps one file a log")) << run.err;
+  EXPECT_FALSE(fs::exists(made_));
+}
+
 TEST_F(GoldenRecord, RefusesAGoldenFolderAndTwoLogsOfOneName) {
   const auto before = golden_.snapshot();
   EXPECT_EQ(record(golden_.path(), {log("locked_1.csv")}).status, 2);
