@@ -121,7 +121,7 @@ TEST_F(KukaTrace, BlocksOfGermanChannelsAreJointsInSi) {
   EXPECT_TRUE(read.issues.empty()) << read.issues.all().front().message;
 }
 
-TEST_F(KukaTrace, CommandedAndMeasuredSignalsAreToldApart) {
+TEST_F(KukaTrace, CommandedAndMeasuredSignalsAreDistinguished) {
   std::string channels = clock_channel(2, "0.012");
   const char* names[] = {"Sollposition",       "Istposition", "Sollgeschwindigkeit",
                          "Istgeschwindigkeit", "Sollmoment",  "Istmoment"};
