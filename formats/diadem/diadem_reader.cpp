@@ -35,10 +35,10 @@ constexpr std::int64_t kDiademBlockValues = 1 << 19, kDiademBlockBytes = 1 << 24
 std::string read_header_text(ByteSource& bytes) {
   std::string text;
   for (std::size_t got = 1; got > 0;) {
-    constexpr std::size_t kPiece = 1 << 16;  // bytes
+    constexpr std::size_t kDataPiece = 1 << 16;  // bytes
     const std::size_t before = text.size();
-    text.resize(before + kPiece);
-    got = bytes.read(text.data() + before, kPiece);
+    text.resize(before + kDataPiece);
+    got = bytes.read(text.data() + before, kDataPiece);
     text.resize(before + got);
     if (text.size() > kMostDiademHeader)
       throw Error(
