@@ -16,6 +16,13 @@ namespace fs = std::filesystem;
 const std::string kSource = FAULTLINE_SOURCE_DIR;
 const std::string kBuild = fs::path(FAULTLINE_PROGRAM).parent_path().string();
 
+/// Flags with which a program must be built to link the libraries.
+#ifdef __SANITIZE_ADDRESS__
+const std::string kFlags = "-fsanitize=address,undefined";
+#else
+const std::string kFlags;
+#endif
+
 /// The tree installed once for all tests of this file.
 class InstalledTree : public testing::Test {
  protected:
@@ -58,7 +65,7 @@ TEST_F(InstalledTree, AThirdPartyProgramFindsLinksAndUsesTheLibrary) {
   const std::string build = folder_.file("example");
   const ProgramRun configured =
       run_command({"cmake", "-G", "Ninja", "-S", kSource + "/tests/apps/packaging/example", "-B", build,
-                   "-DCMAKE_PREFIX_PATH=" + prefix()});
+                   "-DCMAKE_PREFIX_PATH=" + prefix(), "-DCMAKE_CXX_FLAGS=" + kFlags});
   ASSERT_EQ(configured.status, 0) << configured.err;
   const ProgramRun built = run_command({"cmake", "--build", build});
   ASSERT_EQ(built.status, 0) << built.out;
