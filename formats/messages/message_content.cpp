@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "formats/messages/message_bytes.hpp"
@@ -13,38 +11,11 @@
 namespace faultline {
 namespace {
 
-using ContentJson = nlohmann::json;
-
-/// Longest array that is kept; a joint signal has a few values, a picture has millions.
-constexpr std::size_t kMostValues = 1 << 12;
-/// Largest number of runs of a field in one message.
-constexpr std::size_t kMostRuns = 1 << 12;
-/// Largest JSON message in bytes, and number and depth of its fields.
-constexpr std::size_t kLongestContentJson = 1 << 20;
-constexpr std::size_t kMostJsonFields = 1 << 12;
-constexpr std::size_t kDeepestJson = 16;
 /// Bytes that may follow the last member of a message, which pad it.
 constexpr std::size_t kPadding = 4;
 constexpr std::int64_t kStampSecond_ns = 1'000'000'000;
 /// Upper limit of the seconds of a stamp; more would not fit 64 bits of nanoseconds.
 constexpr double kMostStampSeconds = 9e9;
-
-void clear_values(MessageContent& content) {
-  for (FieldContent& field : content.fields) {
-    field.numbers.clear();
-    field.texts.clear();
-    field.runs.clear();
-    field.places.clear();
-  }
-}
-
-/// Begins a run of a field at a place in the arrays that enclose it; false when it has too many.
-bool begin_run(FieldContent& field, const std::vector<std::uint32_t>& place) {
-  if (field.runs.size() >= kMostRuns) return false;
-  field.runs.push_back({field.is_text ? field.texts.size() : field.numbers.size(), 0});
-  field.places.insert(field.places.end(), place.begin(), place.end());
-  return true;
-}
 
 double taken_number(MessageBytes& bytes, MessageValue value) {
   switch (value) {
@@ -85,7 +56,7 @@ class DefinedContent {
   /// Fills the content; false when the bytes do not hold all members. With `whole`, nothing may follow them.
   bool decode(MessageBytes bytes, bool whole, MessageContent& content) {
     if (content.fields.size() != fields_.size()) content.fields = fields_;
-    clear_values(content);
+    content.clear_values();
     place_.clear();
     std::size_t next = 0;
     return take_group(bytes, 0, next, content) && (!whole || bytes.left() < kPadding);
@@ -162,12 +133,12 @@ class DefinedContent {
   /// Takes single values or an array of them.
   bool take_values(MessageBytes& bytes, const MessageField& field, std::size_t count, FieldContent& content) {
     const std::size_t size = bytes_of(field.value);
-    if (size > 0 && (count > kMostValues || content.runs.size() >= kMostRuns)) {
+    if (size > 0 && (count > FieldContent::kMostValues || content.runs.size() >= FieldContent::kMostRuns)) {
       bytes.values(count, size);
       return bytes.ok();
     }
     if (count > bytes.left() && count > 0) return false;
-    const bool kept = begin_run(content, place_);
+    const bool kept = content.begin_run(place_);
     for (std::size_t i = 0; i < count && bytes.ok(); ++i) {
       if (field.value != MessageValue::text) {
         content.numbers.push_back(taken_number(bytes, field.value));
@@ -216,80 +187,23 @@ class RosContentDecoder : public ContentDecoder {
   std::size_t last_ = 0;  ///< version of the last message
 };
 
-/// Decodes JSON objects; their fields are found anew in each message.
-class JsonContentDecoder : public ContentDecoder {
- public:
-  bool decode(std::string_view bytes, MessageContent& content) override {
-    clear_values(content);
-    place_.clear();
-    if (bytes.size() > kLongestContentJson) return false;
-    message_ = ContentJson::parse(bytes, nullptr, false);
-    if (!message_.is_object()) return false;
-    return add(message_, "", "", content);
-  }
-
- private:
-  FieldContent* field_of(const std::string& path, const std::string& example, bool is_text, bool is_array,
-                         MessageContent& content) {
-    const auto [known, is_new] = index_of_.emplace(path, content.fields.size());
-    if (is_new && content.fields.size() >= kMostJsonFields) return nullptr;
-    if (is_new) content.fields.push_back({path, example, is_text, is_array, place_.size(), {}, {}, {}, {}});
-    FieldContent& field = content.fields[known->second];
-    const bool fits = field.is_text == is_text && field.is_array == is_array && field.arrays == place_.size();
-    return fits && begin_run(field, place_) ? &field : nullptr;
-  }
-
-  static std::string below(const std::string& path, const std::string& name) {
-    return path.empty() ? name : path + "." + name;
-  }
-
-  static void put(const ContentJson& value, FieldContent& field) {
-    if (field.is_text)
-      field.texts.push_back(value.is_string() ? std::string_view(value.get_ref<const std::string&>())
-                                              : std::string_view());
-    else
-      field.numbers.push_back(value.is_number() ? value.get<double>()
-                                                : (value.is_boolean() ? double(value.get<bool>()) : kNan));
-    ++field.runs.back().count;
-  }
-
-  /// Adds a value under its path; false when the message is deeper than any.
-  bool add(const ContentJson& value, const std::string& path, const std::string& example,
-           MessageContent& content) {
-    if (place_.size() > kDeepestJson ||
-        std::count(path.begin(), path.end(), '.') > std::ptrdiff_t{kDeepestJson})
-      return false;
-    if (value.is_object()) {
-      for (const auto& [name, member] : value.items())
-        if (!add(member, below(path, name), below(example, name), content)) return false;
-      return true;
-    }
-    if (!value.is_array()) {
-      if (FieldContent* field = field_of(path, example, value.is_string(), false, content))
-        put(value, *field);
-      return true;
-    }
-    if (!value.empty() && value.front().is_structured()) {
-      for (std::size_t i = 0; i < value.size(); ++i) {
-        place_.push_back(static_cast<std::uint32_t>(i));
-        const bool added = add(value[i], path, example + "[0]", content);
-        place_.pop_back();
-        if (!added) return false;
-      }
-      return true;
-    }
-    if (value.empty() || value.size() > kMostValues) return true;
-    if (FieldContent* field = field_of(path, example + "[0]", value.front().is_string(), true, content))
-      for (const ContentJson& element : value) put(element, *field);
-    return true;
-  }
-
-  ContentJson message_;
-  std::map<std::string, std::size_t> index_of_;  ///< of a path, in the content
-  std::vector<std::uint32_t> place_;
-};
-
 }  // namespace
+
+bool FieldContent::begin_run(const std::vector<std::uint32_t>& place) {
+  if (runs.size() >= kMostRuns) return false;
+  runs.push_back({is_text ? texts.size() : numbers.size(), 0});
+  places.insert(places.end(), place.begin(), place.end());
+  return true;
+}
+
+void MessageContent::clear_values() {
+  for (FieldContent& field : fields) {
+    field.numbers.clear();
+    field.texts.clear();
+    field.runs.clear();
+    field.places.clear();
+  }
+}
 
 const FieldContent* MessageContent::find(std::string_view path) const {
   for (const FieldContent& field : fields)
@@ -358,7 +272,7 @@ std::int64_t stamp_of(const MessageContent& content) {
 }
 
 std::unique_ptr<ContentDecoder> content_decoder(const Topic& topic) {
-  if (topic.encoding == "json") return std::make_unique<JsonContentDecoder>();
+  if (topic.encoding == "json") return json_content_decoder();
   const bool cdr = topic.encoding == "cdr";
   if (!cdr && topic.encoding != "ros1" && topic.encoding != "ros1msg") return nullptr;
   std::vector<MessageDefinition> versions;

@@ -29,6 +29,13 @@ struct FieldContent {
   std::vector<std::string_view> texts;
   std::vector<FieldRun> runs;
   std::vector<std::uint32_t> places;  ///< by run: its place in each of the enclosing arrays
+
+  /// Longest array that is kept; a joint signal has a few values, a picture has millions.
+  static constexpr std::size_t kMostValues = 1 << 12;
+  /// Largest number of runs in one message.
+  static constexpr std::size_t kMostRuns = 1 << 12;
+  /// Begins a run at a place in the enclosing arrays; false if there are too many.
+  bool begin_run(const std::vector<std::uint32_t>& place);
 };
 
 /// All values of a message, but those of arrays with more than 4096 values, such as pictures. Texts are valid
@@ -36,6 +43,8 @@ struct FieldContent {
 struct MessageContent {
   std::vector<FieldContent> fields;
 
+  /// Removes the values and keeps the fields.
+  void clear_values();
   /// Returns the field of this path; null for none.
   const FieldContent* find(std::string_view path) const;
   /// Returns the numbers of the first array, or the first value, under this path; empty for none.
@@ -70,5 +79,8 @@ class ContentDecoder {
 /// Returns a decoder for messages of ROS 1 and ROS 2 whose definition the recording states or is known, and
 /// for JSON; null for others.
 std::unique_ptr<ContentDecoder> content_decoder(const Topic& topic);
+
+/// Returns a decoder for JSON objects.
+std::unique_ptr<ContentDecoder> json_content_decoder();
 
 }  // namespace faultline
