@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -34,7 +36,7 @@ OpenLogOptions with_message_field() {
   constexpr const char *kTopic = "/arm/state", *kField = "feedback.positions[0]";
   ColumnSpec position;
   position.topic = kTopic;
-  position.name = std::string(kTopic) + "/" + kField;
+  position.name = fmt::format("{}/{}", kTopic, kField);
   OpenLogOptions options;
   options.columns["q1"] = position;
   options.recording.fields = {{kTopic, kField}};
