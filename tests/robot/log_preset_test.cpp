@@ -115,7 +115,8 @@ TEST(LogPreset, AnUnknownPresetIsRefusedWithTheKnownOnes) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::usage);
-    EXPECT_NE(error.message().find("dynamixel, factorynet, feetech, franka, mecademic, ur-rtde"),
+    EXPECT_NE(error.message().find("dynamixel, factorynet, feetech, franka, kuka-trace, mecademic, "
+                                   "ur-rtde"),
               std::string::npos)
         << error.message();
   }
