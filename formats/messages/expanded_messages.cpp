@@ -148,6 +148,7 @@ void ExpandedMessages::add_fields(const Message& message, Expansion& expansion) 
 }
 
 void ExpandedMessages::add_views(const Message& message, Expansion& expansion) {
+  const std::int64_t stamp_ns = stamp_of(expansion.content);
   for (const JointView& view : joint_views(expansion.type, expansion.content)) {
     Topic made{expansion.name + "/" + view.name, kViewType, kMadeEncoding};
     made.role = view.role;
@@ -155,7 +156,7 @@ void ExpandedMessages::add_views(const Message& message, Expansion& expansion) {
     auto output = std::find_if(expansion.views.begin(), expansion.views.end(),
                                [&](const Output& known) { return known.topic == topic; });
     if (output == expansion.views.end()) output = expansion.views.insert(output, {topic, {}, {}});
-    add_state(message, *output, view.joints, view.row, stamp_of(expansion.content));
+    add_state(message, *output, view.joints, view.row, stamp_ns);
   }
 }
 

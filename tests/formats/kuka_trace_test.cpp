@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <numbers>
 
-#include "formats/diadem/diadem_table.hpp"
 #include "formats/open_log.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
@@ -386,24 +385,6 @@ TEST_F(KukaTrace, ANameInTheRobotFileChoosesAColumn) {
       this->read(header(clock_channel(2, "0.004") + stored_channel("Winkelgeber", "?", 2, 1)),
                  elements<double>({1, 2}), options);
   EXPECT_EQ(read.log.q, (JointSignals{{1, 2}})) << read.refused;
-}
-
-TEST(DiademTables, AColumnLiesWhereTheHeaderStatesIt) {
-  const TemporaryFolder folder;
-  folder.write("a.r32", std::string(40, '\0'));
-  DiademHeader made;
-  DiademChannel stored;
-  stored.name = "q1";
-  stored.file = "a.r32";
-  stored.type = DiademType::real32;
-  stored.values = 5;
-  stored.first = 4;
-  made.channels = {stored};
-  const DiademTable table = diadem_table(made, folder.file("a.dat"));
-  ASSERT_EQ(table.places.size(), 1u);
-  EXPECT_EQ(table.places[0].begin, 12);
-  EXPECT_EQ(table.places[0].stride, 4);
-  EXPECT_EQ(table.rows_held, 5);
 }
 
 }  // namespace
