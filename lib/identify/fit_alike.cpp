@@ -262,15 +262,17 @@ void add_gain_issues(const std::vector<double>& gain, Issues& issues) {
   }
 }
 
-/// Returns the robot with what is not in the equations of motion: the torque gains of the log and the
-/// compliance of gears.
-Robot with_drives(Robot robot, const std::vector<double>& gain, const TorqueFit& torque) {
+/// Returns the robot with what is not in the equations of motion: the torque gains of the log, its motor
+/// constants and the compliance of gears.
+Robot with_drives(Robot robot, const Gathered& gathered, const TorqueFit& torque) {
   const ParameterSpace& space = torque.space;
   const int n = space.joints();
-  if (!gain.empty()) {
+  const auto scale = [&](const std::vector<double>& gain) {
     robot.torque_gain.resize(n, 1.0);
     for (int j = 0; j < n; ++j) robot.torque_gain[j] *= gain[j];
-  }
+  };
+  if (!gathered.torque_gain.empty()) scale(gathered.torque_gain);
+  if (gathered.constants) scale(gathered.constants->constant);
   robot.gear_compliance.clear();
   for (int p = space.extra_begin(); p < space.timing(); ++p) {
     const ExtraTerm& term = space.extra_at(p);
@@ -290,6 +292,7 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   id.robot = robot;
   id.space = parameter_space(robot);
   Gathered read = gather(logs, id.space, kShortestWindow_s, kMostWindows, progress);
+  if (robot.log.torque == TorqueMeaning::current) read = with_motor_constants(logs, std::move(read));
   id.logs = std::move(read.logs);
   id.issues = std::move(read.issues);
   DraftedModel model = draft_model(logs, std::move(read), options, id, id.issues);
@@ -300,8 +303,9 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   id.space = torque.space;
   for (std::size_t i = 0; i < id.logs.size(); ++i) id.logs[i].left_out = gathered.left_out[i];
   id = with_settled_method(logs, model, options, progress, std::move(id));
-  id.robot = with_drives(std::move(id.robot), gathered.torque_gain, torque);
+  id.robot = with_drives(std::move(id.robot), gathered, torque);
   add_gain_issues(gathered.torque_gain, id.issues);
+  if (gathered.constants) id.issues.add(motor_constants_issue(*gathered.constants));
 
   const std::vector<Joint> undriven = undriven_joints(torque);
   const Confounded confounded = confounded_parameters(robot, still, undriven, torque);

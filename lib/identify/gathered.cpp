@@ -34,9 +34,12 @@ int stretch_stride(const std::vector<LogSurvey>& surveys) {
 void visit_stretches(std::span<LogSource* const> logs, const Gathered& gathered,
                      const std::function<void(const Stretch&)>& visit) {
   const int stride = stretch_stride(gathered.surveys), joints = gathered.windows.space.joints();
-  const std::vector<double>& gain = gathered.torque_gain;
+  std::vector<double> gain(joints, 1.0);
+  for (std::size_t j = 0; j < gathered.torque_gain.size(); ++j) gain[j] *= gathered.torque_gain[j];
+  for (int j = 0; gathered.constants && j < joints; ++j) gain[j] *= gathered.constants->constant[j];
+  const bool is_scaled = std::any_of(gain.begin(), gain.end(), [](double g) { return g != 1.0; });
   const auto visit_true = [&](const Stretch& s) {
-    if (gain.empty()) return visit(s);
+    if (!is_scaled) return visit(s);
     Stretch scaled = s;
     for (int j = 0; j < joints; ++j) scaled.tau.row(j) *= gain[j];
     visit(scaled);
@@ -182,6 +185,14 @@ Gathered gather_again(std::span<LogSource* const> logs, const ParameterSpace& sp
   visit_stretches(logs, gathered, [&](const Stretch& s) { windows.add(s); });
   for (WeakWindows& set : windows.sets) set.leave_out(gathered.left_out);
   return gathered;
+}
+
+Gathered with_motor_constants(std::span<LogSource* const> logs, Gathered gathered) {
+  gathered.constants = motor_constants(gathered.windows);
+  if (!gathered.constants) return gathered;
+  const ParameterSpace space = gathered.windows.space;
+  const ExtraSetting setting = gathered.windows.extra;
+  return gather_again(logs, space, setting, std::move(gathered));
 }
 
 void Gathered::leave_out(const std::vector<int>& more) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "lib/identify/identification.hpp"
 #include "lib/identify/motion/log_survey.hpp"
 #include "lib/identify/motion/stretch.hpp"
+#include "lib/identify/motor_constants.hpp"
 #include "lib/identify/weak_form/weak_windows.hpp"
 #include "lib/log/log_source.hpp"
 
@@ -49,8 +51,9 @@ struct Gathered {
   std::vector<LogSurvey> surveys;
   WeakSets windows;
   Measurements measurements;
-  std::vector<bool> left_out;       ///< by log: its windows and excerpts are excluded
-  std::vector<double> torque_gain;  ///< by joint: true torque per logged torque; empty: all 1
+  std::vector<bool> left_out;                 ///< by log: its windows and excerpts are excluded
+  std::vector<double> torque_gain;            ///< by joint: true torque per logged torque; empty: all 1
+  std::optional<MotorConstants> constants{};  ///< of logged currents, beside torque_gain
 
   void leave_out(const std::vector<int>& more);
 };
@@ -64,6 +67,9 @@ Gathered gather(std::span<LogSource* const> logs, const ParameterSpace& space, d
 /// Reads every log once more and returns the windows of another space; the other fields of `gathered` stay.
 Gathered gather_again(std::span<LogSource* const> logs, const ParameterSpace& space,
                       const ExtraSetting& setting, Gathered gathered);
+
+/// Returns the data with the motor constants that they show, and the windows in torques instead of currents.
+Gathered with_motor_constants(std::span<LogSource* const> logs, Gathered gathered);
 
 /// Returns excerpts of the logs with each joint's torque shifted by the samples of its delay.
 std::vector<Excerpt> gather_excerpts(std::span<LogSource* const> logs, const Gathered& gathered,
