@@ -43,11 +43,11 @@ Robot robot_with(const Robot& robot, const ParameterSpace& space, const Eigen::V
   return out;
 }
 
-Robot draw(const Identification& id, Random& random) {
+Robot draw(const Identification& id, Random& random, double spread) {
   const SymmetricEigen eigen = symmetric_eigen(id.covariance);
   Eigen::VectorXd p = id.estimate;
   for (Eigen::Index k = 0; k < p.size(); ++k)
-    p += eigen.vectors.col(k) * (std::sqrt(std::max(eigen.values[k], 0.0)) * random.normal());
+    p += eigen.vectors.col(k) * (spread * std::sqrt(std::max(eigen.values[k], 0.0)) * random.normal());
   const ParameterSpace& space = id.space;
   for (int j = 0; j < space.joints(); ++j)
     for (int k : {space.viscous(j), space.coulomb(j)})

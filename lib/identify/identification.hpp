@@ -116,9 +116,9 @@ struct Identification {
   void take(const std::optional<FitStatus>& found);
 };
 
-/// Returns the identified robot with parameters drawn from their joint normal distribution; masses and
-/// friction stay positive.
-Robot draw(const Identification& identification, Random& random);
+/// Returns the identified robot with parameters drawn from their joint normal distribution, its standard
+/// deviations times `spread`; masses and friction stay positive.
+Robot draw(const Identification& identification, Random& random, double spread = 1.0);
 
 /// Returns `robot` with the parameters of `space` in its chain and its torque timing.
 Robot robot_with(const Robot& robot, const ParameterSpace& space, const Eigen::VectorXd& parameters);

@@ -97,7 +97,8 @@ bool has_doubtful_delay(const Identification& identification, const Robot& robot
 }
 
 FittedDays fitted_days(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
-  return fit_days(days, robot.identification.space, torque_between_samples(robot.model.robot));
+  return fit_days(days, robot.identification.space, torque_between_samples(robot.model.robot),
+                  !robot.parts.empty());
 }
 
 /// Learns the robot at a coarse rate from all logs, and without each of them in turn.

@@ -7,6 +7,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
+#include "lib/identify/feasible/feasible.hpp"
 
 namespace faultline {
 namespace {
@@ -24,9 +25,10 @@ constexpr double kSpareAtTheEnd = 2.0;     // before the end of a healthy run
 constexpr double kMoveShare = 0.4;
 constexpr double kMoveOfAStill_s = 1.0;  // duration of the usual move if no joint of the logs moves
 
-constexpr double kMostStds = 2.0;       // standard deviations of an effect of the day: the normal range
-constexpr double kLeastFriction = 0.3;  // factor of the friction of a day: there is always some
-constexpr double kLeastGain = -0.9;     // change of the gain of a day: no drive reverses its torque
+constexpr double kLeastDeviation = 0.01;  // share of the uncertainty: below, the estimate itself is used
+constexpr double kMostStds = 2.0;         // standard deviations of an effect of the day: the normal range
+constexpr double kLeastFriction = 0.3;    // factor of the friction of a day: there is always some
+constexpr double kLeastGain = -0.9;       // change of the gain of a day: no drive reverses its torque
 
 std::vector<double> scaled(std::vector<double> values, double by) {
   for (double& value : values) value *= by;
@@ -143,6 +145,22 @@ DriveSpec draw_drives(const Twin& twin, Random& random) {
   return drives;
 }
 
+/// Draws a robot from the uncertainty of the identification. Where the logs hardly determine an inertia, half
+/// of such robots would be infeasible: the deviation is halved until the inertia matrix is positive definite.
+Robot draw_robot(const Twin& twin, Random& random) {
+  const UsualMotion& motion = *twin.motion;
+  const Eigen::Map<const Eigen::VectorXd> low(motion.q_low.data(), motion.joints()),
+      high(motion.q_high.data(), motion.joints());
+  const Random before = random;
+  for (double spread = 1.0; spread >= kLeastDeviation; spread *= 0.5) {
+    random = before;
+    Robot robot = draw(*twin.identification, random, spread);
+    if (has_definite_inertia(robot.chain, low, high)) return robot;
+  }
+  random = before;
+  return draw(*twin.identification, random, 0.0);
+}
+
 /// The robot with the friction of a day, within the normal range.
 Robot draw_day(const Twin& twin, Robot robot, Random& random) {
   for (std::size_t j = 0; j < robot.chain.friction.size(); ++j) {
@@ -196,7 +214,7 @@ SimulationSpec spec_of(const Twin& twin, int attempt, Random& random) {
 /// Simulates one attempt; the run ends early if the drawn controller does not stabilise this robot.
 TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed, int attempt) {
   Random random = Random::stream(seed, kDrawStream + static_cast<std::uint64_t>(attempt));
-  Robot robot = draw(*twin.identification, random);
+  Robot robot = draw_robot(twin, random);
   robot = draw_day(twin, std::move(robot), random);
   SimulationSpec spec = spec_of(twin, attempt, random);
   TwinRun run;

@@ -28,20 +28,6 @@ constexpr double kLeastMass = 1e-3;     // kg, if the robot file has none
 constexpr double kLeastInertia = 1e-5;  // kg m^2
 constexpr double kLeastSpread = 0.05;   // m: least radius of gyration, if the robot file has none
 
-bool positive_definite(const Chain& chain, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
-  Random random(11);
-  for (int k = 0; k < kProbes; ++k) {
-    JointVector q(chain.joints());
-    for (int j = 0; j < chain.joints(); ++j) q[j] = random.uniform(low[j], high[j]);
-    const Eigen::MatrixXd m = inertia_matrix(chain, q);
-    if (!m.allFinite() || !(m.diagonal().minCoeff() > 0.0)) return false;
-    const Eigen::VectorXd scale = m.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::VectorXd values = symmetric_eigenvalues(scale.asDiagonal() * m * scale.asDiagonal());
-    if (!(values[0] > kDefinite)) return false;
-  }
-  return true;
-}
-
 /// A feasible body or rotor: `numbers` times its unknowns are its inertial numbers if its block is positive
 /// definite. The block of a rod is [inertia, first moment; first moment, mass], of a point its mass, of a
 /// general link its pseudo-inertia (Wensing, Kim and Slotine 2018), of a rotor its inertia.
@@ -194,6 +180,20 @@ void scale_bodies(const Eigen::MatrixXd& a, const Eigen::VectorXd& y, FeasibleUn
 
 }  // namespace
 
+bool has_definite_inertia(const Chain& chain, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
+  Random random(11);
+  for (int k = 0; k < kProbes; ++k) {
+    JointVector q(chain.joints());
+    for (int j = 0; j < chain.joints(); ++j) q[j] = random.uniform(low[j], high[j]);
+    const Eigen::MatrixXd m = inertia_matrix(chain, q);
+    if (!m.allFinite() || !(m.diagonal().minCoeff() > 0.0)) return false;
+    const Eigen::VectorXd scale = m.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::VectorXd values = symmetric_eigenvalues(scale.asDiagonal() * m * scale.asDiagonal());
+    if (!(values[0] > kDefinite)) return false;
+  }
+  return true;
+}
+
 std::string infeasibility(const ParameterSpace& space, const Eigen::VectorXd& parameters,
                           const Eigen::MatrixXd& covariance, const Eigen::VectorXd& q_low,
                           const Eigen::VectorXd& q_high) {
@@ -203,7 +203,7 @@ std::string infeasibility(const ParameterSpace& space, const Eigen::VectorXd& pa
     if (parameters[p] < (is_rigid ? -kRounding : -kInfeasibleStds * std::sqrt(covariance(p, p))))
       return fmt::format("{} was estimated as {:.4g} {}", space.name(p), parameters[p], space.unit(p));
   }
-  if (!positive_definite(chain_from(space, parameters), q_low, q_high))
+  if (!has_definite_inertia(chain_from(space, parameters), q_low, q_high))
     return "the inertia matrix was not positive definite over the range of the motion";
   return "";
 }

@@ -11,6 +11,9 @@
 
 namespace faultline {
 
+/// Whether the inertia matrix is positive definite at random positions within `low` and `high`.
+bool has_definite_inertia(const Chain& chain, const Eigen::VectorXd& low, const Eigen::VectorXd& high);
+
 /// Returns why the parameters are infeasible, in words, or "": the inertia matrix must be positive definite
 /// over the range of the joints, masses and rotor inertia not negative, and friction not clearly negative.
 std::string infeasibility(const ParameterSpace& space, const Eigen::VectorXd& parameters,
