@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace faultline {
@@ -83,14 +84,21 @@ void add_units(const Chain& chain, Interpretations& out) {
 /// Adds one torque in thousandths or thousands of its unit; for all of them only the masses would differ.
 void add_torque_units(const Chain& chain, Interpretations& out) {
   for (int j = 0; j < chain.joints(); ++j)
-    for (const double by : {1e-3, 1e3})
+    for (const double by : {1e-3, 1e3}) {
       out.push_back(scaled(
           fmt::format("tau{} is {} than the other torques", Joint::at(j),
                       by < 1.0 ? "in a unit a thousand times smaller" : "in a unit a thousand times larger"),
           fmt::format("scale = {:g} for tau{}", by, Joint::at(j)), {j}, scale_torque, by));
+      out.back().is_other_torque_unit = true;
+    }
 }
 
 void add_signs(const Chain& chain, Interpretations& out) {
+  std::vector<int> all(static_cast<std::size_t>(chain.joints()));
+  std::iota(all.begin(), all.end(), 0);
+  if (all.size() > 1)
+    out.push_back(
+        scaled("all torques have the opposite sign", "sign = -1 for each tau", all, scale_torque, -1.0));
   for (int j = 0; j < chain.joints(); ++j) {
     out.push_back(scaled(fmt::format("tau{} has the opposite sign", Joint::at(j)),
                          fmt::format("sign = -1 for tau{}", Joint::at(j)), {j}, scale_torque, -1.0));

@@ -19,6 +19,7 @@ struct ColumnInterpretation {
   std::function<void(Log&)> apply;                 ///< converts a log to this interpretation
   std::function<void(Chain&)> of_robot = nullptr;  ///< changes the robot; null: not changed
   bool is_entry_of_columns = false;                ///< the cure is an entry of [log.columns] alone
+  bool is_other_torque_unit = false;               ///< one torque is multiplied by a positive number
 };
 
 /// Returns other units, signs and swapped columns of single joints, other units of all angles and the time.

@@ -97,6 +97,9 @@ Reinterpretation find_reinterpretation(std::span<LogSource* const> logs, const R
                          const std::vector<Log>& as_interpreted) -> std::optional<double> {
     const Explained then = explained_by(one, as_interpreted);
     if (!then.feasible || then.worst() < (now.feasible ? kRight : kSurelyRight)) return std::nullopt;
+    // A wrong sign shows in infeasible values alone; a wrong unit of one torque leaves a residual as well.
+    if (one.is_other_torque_unit && then.left() > now.left() + elementary::log(kClearlyLess))
+      return std::nullopt;
     return then.left();
   };
   const double limit = now.feasible ? now.left() + elementary::log(kClearlyLess) : INFINITY;
