@@ -97,8 +97,7 @@ bool has_doubtful_delay(const Identification& identification, const Robot& robot
 }
 
 FittedDays fitted_days(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
-  return fit_days(days, robot.identification.space, torque_between_samples(robot.model.robot),
-                  !robot.parts.empty());
+  return fit_days(days, robot.identification.space, torque_between_samples(robot.model.robot));
 }
 
 /// Learns the robot at a coarse rate from all logs, and without each of them in turn.

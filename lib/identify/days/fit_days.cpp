@@ -79,9 +79,6 @@ constexpr EffectStd kUnseen{.inertia = 1e-2,
                             .direction = 0.03,
                             .load = 0.02,
                             .delay = 0.3};
-/// Share of the friction by which it differs on other days (std), where only one day was logged: half of the
-/// range that is normal for an ordinary machine (NormalRange::friction).
-constexpr double kFrictionOfOtherDays = 0.15;
 
 /// Returns the model with ranges, top speeds, noise and repeated positions of the healthy logs.
 BalanceModel with_healthy_motion(const std::vector<UniformLog>& logs, BalanceModel m) {
@@ -302,18 +299,15 @@ Eigen::VectorXd variance_between_days(const BalanceModel& model, const Eigen::Ve
   return without_doubles(model, moments.cwiseMax(variance_of(model, kLeast)));
 }
 
-/// Prior variance of an unseen day: twice the variance between the days, plus that of kUnseen. One day alone
-/// does not show by how much the friction of another day differs.
-Eigen::VectorXd prior_of_a_day(const BalanceModel& model, const Eigen::VectorXd& between, bool is_one_day) {
-  EffectStd unseen = kUnseen;
-  if (is_one_day) unseen.friction = kFrictionOfOtherDays;
-  return without_doubles(model, kUnseenDays * between + variance_of(model, unseen));
+/// Prior variance of an unseen day: twice the variance between the days, plus that of kUnseen.
+Eigen::VectorXd prior_of_a_day(const BalanceModel& model, const Eigen::VectorXd& between) {
+  return without_doubles(model, kUnseenDays * between + variance_of(model, kUnseen));
 }
 
 }  // namespace
 
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
-                    TorqueTiming torque_between_samples, bool is_one_day) {
+                    TorqueTiming torque_between_samples) {
   DayDraft draft = first_draft(logs, space, torque_between_samples);
   Eigen::VectorXd between = without_doubles(draft.model, variance_of(draft.model, kFirst));
   for (int round = 0; round < kFitRounds; ++round) {
@@ -330,10 +324,10 @@ FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& spac
   for (const RobotWithoutDay& robot : fit_without_each_day(draft, between)) {
     BalanceModel& m = out.without.emplace_back(draft.model);
     m.theta = robot.theta;
-    m.day_variance = prior_of_a_day(m, variance_between_days(m, robot.moments), is_one_day);
+    m.day_variance = prior_of_a_day(m, variance_between_days(m, robot.moments));
   }
   for (HealthyDay& day : draft.days) out.pieces.push_back({day.rows.time_s, std::move(day.path)});
-  draft.model.day_variance = prior_of_a_day(draft.model, between, is_one_day);
+  draft.model.day_variance = prior_of_a_day(draft.model, between);
   out.model = std::move(draft.model);
   return out;
 }

@@ -27,9 +27,8 @@ struct FittedDays {
 
 /// Estimates the robot, its differences from day to day and the noise of its rows from healthy logs (at least
 /// two, of one rate): a regression with mixed effects, in which the parameters of the robot are free and the
-/// effects of each day random (Laird and Ware 1982). `space` gives base parameters and lengths. `is_one_day`:
-/// the logs are pieces of one log, which shows nothing of other days.
+/// effects of each day random (Laird and Ware 1982). `space` gives base parameters and lengths.
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
-                    TorqueTiming torque_between_samples, bool is_one_day = false);
+                    TorqueTiming torque_between_samples);
 
 }  // namespace faultline
