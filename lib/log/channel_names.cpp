@@ -77,13 +77,14 @@ std::vector<std::string> tokens_of(const std::string& name) {
 }
 
 bool is_reference(const std::string& word) {
-  return among(
-      word, {"ref", "reference", "des", "desired", "set", "setpoint", "target", "cmd", "command", "commanded",
-             "goal", "qg", "references", "setpoints", "targets", "cmds", "commands", "goals", "soll"});
+  return among(word, {"ref",     "reference", "des",       "desired", "set",  "setpoint",   "target",
+                      "cmd",     "command",   "commanded", "goal",    "qg",   "references", "setpoints",
+                      "targets", "cmds",      "commands",  "goals",   "soll", "nominal"});
 }
 
 bool is_measurement(const std::string& word) {
-  return among(word, {"meas", "measured", "actual", "act", "feedback", "fb", "state", "states", "qm", "ist"});
+  return among(
+      word, {"meas", "measured", "actual", "act", "feedback", "fb", "state", "states", "qm", "ist", "real"});
 }
 
 /// Words of columns that are related to a joint signal but are none.
@@ -111,8 +112,8 @@ bool is_decoration(const std::string& word) {
 std::optional<Quantity> quantity_of(const std::string& word) {
   if (among(word, {"q", "qm", "qg", "pos", "position", "positions", "angle", "angles", "theta", "winkel"}))
     return Quantity::q;
-  if (among(word, {"dq", "qd", "qdot", "vel", "velocity", "velocities", "speed", "speeds", "omega", "dtheta",
-                   "geschwindigkeit"}))
+  if (among(word, {"dq", "qd", "qdot", "vel", "velo", "velocity", "velocities", "speed", "speeds", "omega",
+                   "dtheta", "geschwindigkeit"}))
     return Quantity::dq;
   if (among(word, {"tau", "torque", "torques", "trq", "effort", "efforts", "moment", "force", "forces",
                    "drehmoment", "kraft"}))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "lib/log/channel_names.hpp"
 #include "lib/log/log.hpp"
 
 namespace faultline {
@@ -45,6 +46,12 @@ TEST(LogChannels, ColumnsOfTwoLogsArePairedAndTheirNamesCopied) {
   EXPECT_EQ(to.tau, from.tau);
   EXPECT_EQ(to.extra[0].name, "load");
   EXPECT_EQ(to.extra[0].values, from.extra[0].values);
+}
+
+TEST(LogChannels, TheEnglishNamesOfKukaAreUnderstood) {
+  EXPECT_EQ(parse_name("Real Axis Velocity A2").quantity, Quantity::dq);
+  EXPECT_EQ(parse_name("ActVelo_A1").quantity, Quantity::dq);
+  EXPECT_EQ(parse_name("Nominal axis position A3").quantity, Quantity::q_ref);
 }
 
 }  // namespace
