@@ -12,6 +12,7 @@
 #include "apps/work/diagnosis_recording.hpp"
 #include "apps/work/file_use.hpp"
 #include "apps/work/robot_log.hpp"
+#include "apps/work/stop_moment.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/prefetch.hpp"
@@ -63,6 +64,8 @@ struct DiagnoseArguments : ModelPaths {
   LogSelection parts;
   std::vector<RequestedReport> reports = all_reports();
   std::string recording;  ///< of --mcap
+  std::string moment;     ///< of --at
+  std::string stop;       ///< of --stop: column; empty: that of the robot file, if it names one
   DiagnoseOptions options;
 };
 
@@ -82,14 +85,16 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
                 "cannot write to standard output; give the name of a file");
   claim_files(arguments);
   const auto [model, cases] = load_model_files(arguments.model, arguments.case_base());
+  DiagnoseOptions options = arguments.options;
+  options.stop = stop_question(arguments.log, arguments.parts, model.robot, arguments.moment, arguments.stop);
   const auto log = prefetched(open_robot_log(arguments.log, model.robot, arguments.parts));
-  const Diagnosis diagnosis = diagnose(*log, model, cases, arguments.options);
+  const Diagnosis diagnosis = diagnose(*log, model, cases, options);
   const auto tell_diagnosis = [&] {
     TimelineOptions timeline;
     timeline.color = use_color(color, stdout);
     if (!standard_output_is_taken(arguments.reports)) print(render_text(diagnosis, timeline), timeline.color);
   };
-  write_reports(arguments.reports, report_source(*log, model, diagnosis, arguments.options));
+  write_reports(arguments.reports, report_source(*log, model, diagnosis, options));
   try {
     if (!arguments.recording.empty()) write_recording(arguments.recording, *log, model, diagnosis);
   } catch (const Error&) {
@@ -114,6 +119,18 @@ void add_diagnose(CLI::App& app, Program& program) {
           kRecordingOption, arguments->recording,
           "Write the log with predictions, residuals, evidence and events as MCAP (Foxglove, PlotJuggler)")
       ->type_name("F");
+  command
+      ->add_option(
+          "--at", arguments->moment,
+          "Moment of a stop: the report says what changed before it. Seconds in the time of the log, or "
+          "a date with a time (2026-11-24T08:15:30.2Z)")
+      ->type_name("TIME");
+  command
+      ->add_option(
+          "--stop", arguments->stop,
+          "Column whose first change is the stop, such as the controller's stop flag; by default that "
+          "of stop in [log.columns] of the robot file")
+      ->type_name("COLUMN");
   add_diagnose_options(*command, arguments->options);
   add_log_selection(*command, arguments->parts);
   command->footer(

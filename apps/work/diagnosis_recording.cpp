@@ -61,6 +61,22 @@ void add_verdict(const ReportJson& diagnosis, std::vector<LogEvent>& events) {
       {start.get<double>(), false, reason.is_string() ? found + ": " + reason.get<std::string>() : found});
 }
 
+/// Adds the moment that the diagnosis was asked about, and the first sign of it.
+void add_stop(const ReportJson& diagnosis, std::vector<LogEvent>& events) {
+  const auto stop = diagnosis.find("stop");
+  if (stop == diagnosis.end()) return;
+  const auto text = [](const ReportJson& sign) {
+    std::string words = "first sign";
+    for (const char* member : {"kind", "signal"})
+      if (sign.at(member).is_string()) words += ": " + sign.at(member).get<std::string>();
+    if (sign.at("joint").is_number()) words += fmt::format(" of joint {}", sign.at("joint").get<int>());
+    return words;
+  };
+  events.push_back({stop->at("time_s").get<double>(), true, "stop"});
+  if (const ReportJson& sign = stop->at("first_sign"); sign.is_object())
+    events.push_back({sign.at("time_s").get<double>(), true, text(sign)});
+}
+
 /// Returns the events of a report; `where` names it.
 std::vector<LogEvent> events_of_diagnosis(const std::string& report, const std::string& where) {
   const ReportJson diagnosis = ReportJson::parse(report, nullptr, false);
@@ -69,6 +85,7 @@ std::vector<LogEvent> events_of_diagnosis(const std::string& report, const std::
     if (!diagnosis.is_object() || diagnosis.at("schema") != kSchema) throw Error(ErrorCode::input, where, "");
     for (const ReportJson& fault : diagnosis.at("faults")) add_events(fault, events);
     if (diagnosis.at("faults").empty()) add_verdict(diagnosis, events);
+    add_stop(diagnosis, events);
   } catch (const std::exception&) {
     throw Error(
         ErrorCode::input, where,

@@ -137,6 +137,7 @@ class CsvReader : public RawReader {
 
   const std::vector<RawColumn>& columns() const override { return dialect_.columns; }
   void want(const std::vector<bool>& columns) override { rows_.want(columns); }
+  void code_texts(int column) override { rows_.code_texts(column); }
   bool next(RawBlock& block, int max_rows) override {
     max_rows = std::min(max_rows, std::max(1, kBlockValues / std::max(1, dialect_.fields)));
     rows_.begin_block(block, max_rows);

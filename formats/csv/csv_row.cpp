@@ -326,7 +326,10 @@ void CsvRowReader::read_cells(const CsvPlace& at, int row) {
     const Cell cell = there ? read_cell(fields_[field], dialect_.decimal, dialect_.day_first)
                             : Cell{CellKind::missing, kNan};
     values[row] = cell.value;
-    if (cell.kind == CellKind::text) issues_.add_text(at, column_of_field_[field], field, fields_[field]);
+    if (cell.kind == CellKind::text && column_of_field_[field] == coded_column_)
+      values[row] = text_code(without_blanks(fields_[field]));
+    else if (cell.kind == CellKind::text)
+      issues_.add_text(at, column_of_field_[field], field, fields_[field]);
   }
   if (dialect_.date_column >= 0) add_date(row);
 }

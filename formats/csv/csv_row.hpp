@@ -72,6 +72,8 @@ class CsvRowReader {
 
   /// Selects columns, as RawReader::want() does.
   void want(const std::vector<bool>& columns);
+  /// Makes the texts of a column numbers, as RawReader::code_texts() does.
+  void code_texts(int column) { coded_column_ = column; }
   /// Sets the block for the following rows, with room for `max_rows`.
   void begin_block(RawBlock& block, int max_rows);
   /// Reads as many lines of only numbers and separators as it quickly can into the rows from `row` on and
@@ -104,6 +106,7 @@ class CsvRowReader {
   CsvIssues& issues_;
   std::vector<bool> wanted_;           ///< of each column
   std::vector<int> value_fields_;      ///< field of each column, by the latest header
+  int coded_column_ = -1;              ///< whose texts become numbers; -1 for none
   bool is_other_table_ = false;        ///< the latest header has other columns than the first one
   RawBlock* block_ = nullptr;          ///< block that is being filled
   std::vector<int> column_of_field_;   ///< -1 for a field that is not wanted

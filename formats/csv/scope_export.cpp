@@ -230,6 +230,7 @@ class OwnTimeRows : public RawReader {
 
   const std::vector<RawColumn>& columns() const override { return reader_->columns(); }
   void want(const std::vector<bool>& columns) override { reader_->want(columns); }
+  void code_texts(int column) override { reader_->code_texts(column); }
   bool next(RawBlock& block, int max_rows) override {
     while (reader_->next(block, max_rows)) {
       keep_own(block);

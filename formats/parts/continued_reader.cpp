@@ -44,6 +44,11 @@ class ContinuedReader : public RawReader {
     }
   }
 
+  void code_texts(int column) override {
+    for (std::size_t f = 0; f < files_.size(); ++f)
+      if (places_[f][column] >= 0) files_[f]->code_texts(places_[f][column]);
+  }
+
   bool next(RawBlock& block, int max_rows) override {
     for (; at_ < files_.size(); ++at_) {
       const bool more = files_[at_]->next(theirs_, max_rows);

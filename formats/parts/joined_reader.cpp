@@ -207,6 +207,11 @@ class JoinedReader : public RawReader {
     first_->want(of_first);
   }
 
+  /// Texts of the joined files stay missing: their rows are matched as numbers.
+  void code_texts(int column) override {
+    if (column < std::ssize(first_->columns())) first_->code_texts(column);
+  }
+
   bool next(RawBlock& block, int max_rows) override {
     const bool more = first_->next(block, max_rows);
     block.columns.resize(columns_.size());

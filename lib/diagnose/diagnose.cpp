@@ -20,6 +20,7 @@
 #include "lib/diagnose/monitor/monitor.hpp"
 #include "lib/diagnose/question/check_interpretation.hpp"
 #include "lib/diagnose/relation_findings.hpp"
+#include "lib/diagnose/stop/explain_stop.hpp"
 #include "lib/diagnose/verdict.hpp"
 #include "lib/log/recorder/corrected_source.hpp"
 #include "lib/model/model_files.hpp"
@@ -186,6 +187,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis = with_verdict(std::move(diagnosis), faults, model.sample_period_s, power_of(model.validation));
   if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;
   diagnosis.faults = with_runs(std::move(diagnosis.faults), diagnosis.log.runs);
+  if (options.stop) diagnosis.stop = explain_stop(judged, model, cases, options, diagnosis);
   return diagnosis;
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "lib/classify/fault_criterion.hpp"
+#include "lib/diagnose/stop/stop_answer.hpp"
 
 namespace faultline {
 
@@ -27,6 +29,7 @@ struct DiagnoseOptions {
   ClassifyMode mode = ClassifyMode::evidence;
   CriterionKind criterion = CriterionKind::log_odds;  ///< of mode samples
   int g = 0;  ///< of the criterion `consecutive`; 0 = as tuned when the model was learned
+  std::optional<StopQuestion> stop{};  ///< the moment that the diagnosis is asked about, if it is
 };
 
 }  // namespace faultline

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "lib/core/issue.hpp"
 #include "lib/core/joint.hpp"
 #include "lib/diagnose/condition.hpp"
+#include "lib/diagnose/stop/stop_answer.hpp"
 #include "lib/explain/evidence_course.hpp"
 #include "lib/fault/fault_kind.hpp"
 #include "lib/log/time_axis.hpp"
@@ -177,6 +179,7 @@ struct Diagnosis {
   double judged_share = 1.0;  ///< share of the log that the regression could use; 1 if it was not used
   std::vector<std::string>
       cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)
+  std::optional<StopAnswer> stop{};  ///< what happened before the moment that was asked about
 };
 
 }  // namespace faultline

@@ -94,14 +94,18 @@ double least_size_found(const MatrixXd& covariance, const VectorXd& variance, co
 
 std::vector<LeastFound> least_found(const UniformLog& healthy, const ExplainModel& model,
                                     const std::vector<FaultLabel>& labels) {
+  return least_found(healthy, model, labels, healthy.time_s(0.5 * healthy.rows()));
+}
+
+std::vector<LeastFound> least_found(const UniformLog& healthy, const ExplainModel& model,
+                                    const std::vector<FaultLabel>& labels, double onset_s) {
   if (!can_explain(healthy, model.robot)) return {};
-  const double middle_s = healthy.time_s(0.5 * healthy.rows());
   if (const auto* steps = std::get_if<OneStepModel>(&model.robot)) {
     const std::optional<CoarseLog> log = followed_log(healthy, *steps);
-    return log ? of_each(*log, labels, model.limits, middle_s) : std::vector<LeastFound>{};
+    return log ? of_each(*log, labels, model.limits, onset_s) : std::vector<LeastFound>{};
   }
   const LogFit fit(averaged_as(healthy, model.robot), std::get<BalanceModel>(model.robot));
-  return of_each(fit, labels, model.limits, middle_s);
+  return of_each(fit, labels, model.limits, onset_s);
 }
 
 }  // namespace faultline

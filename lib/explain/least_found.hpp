@@ -22,6 +22,9 @@ struct LeastFound {
 /// docs/how-it-works.md). Empty if the log cannot be explained.
 std::vector<LeastFound> least_found(const UniformLog& healthy, const ExplainModel& model,
                                     const std::vector<FaultLabel>& labels);
+/// Returns the same for faults that begin at `onset_s`.
+std::vector<LeastFound> least_found(const UniformLog& healthy, const ExplainModel& model,
+                                    const std::vector<FaultLabel>& labels, double onset_s);
 
 inline constexpr double kUsualPush_s = 0.1;  ///< length of the collision whose smallest size is given
 

@@ -142,6 +142,7 @@ class Matcher {
 
   void match_mapped() {
     for (const auto& [name, spec] : map_) {
+      if (name == kStopChannel) continue;
       const auto channel = canonical_channel(name);
       if (!channel)
         throw Error(ErrorCode::usage, "[log.columns] " + name,

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lib/log/channel_names.hpp"
@@ -15,6 +16,19 @@ namespace faultline {
 
 /// Stands for a number that was not recorded or cannot be computed.
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Least number that stands for a text: beyond what controllers log, and a power of 2.
+inline constexpr double kLeastTextCode = 0x1p200;
+/// Returns a number that stands for a text, the same for equal texts; unlike texts almost never share one.
+inline double text_code(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  constexpr int kMantissaBits = 52, kHashBits = 64;
+  return kLeastTextCode * (1.0 + static_cast<double>(hash >> (kHashBits - kMantissaBits)) /
+                                     static_cast<double>(std::uint64_t{1} << kMantissaBits));
+}
+/// Whether a number stands for a text.
+inline bool is_text_code(double value) { return value >= kLeastTextCode && value < 2.0 * kLeastTextCode; }
 
 /// A column under its name in the file; unit empty if the file gives none.
 struct RawColumn {
@@ -43,6 +57,9 @@ class RawReader {
   virtual void choose(const RecordingChoice&) {}
   /// Selects the columns to read; the vectors of the others may be empty. All are selected at first.
   virtual void want(const std::vector<bool>& columns) { wanted_ = columns; }
+  /// Makes the cells of a column that are texts numbers: text_code() of each. Without this, and in formats
+  /// without texts, they are NaN. To be called before the first row is read.
+  virtual void code_texts(int /*column*/) {}
   /// Reads at most `max_rows` rows into the block, reusing its storage; returns false after the last row.
   virtual bool next(RawBlock& block, int max_rows) = 0;
   virtual void rewind() = 0;

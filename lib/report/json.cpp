@@ -5,6 +5,7 @@
 #include "lib/core/json_values.hpp"
 #include "lib/core/outgoing/json_text.hpp"
 #include "lib/log/time_axis.hpp"
+#include "lib/report/stop_report.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
@@ -168,7 +169,7 @@ Json fault_json(const FaultFinding& fault) {
 }  // namespace
 
 std::string render_json(const Diagnosis& diagnosis) {
-  const Json json = {{"schema", "faultline/diagnosis/1"},
+  Json json = {{"schema", "faultline/diagnosis/1"},
                      {"log", log_json(diagnosis.log)},
                      {"model", model_json(diagnosis.model)},
                      {"program", {{"version", diagnosis.program_version}}},
@@ -180,6 +181,7 @@ std::string render_json(const Diagnosis& diagnosis) {
                      {"residuals", list_of<Json>(diagnosis.residuals, residual_json)},
                      {"cannot_see", list_of<Json>(diagnosis.cannot_see,
                                                   [](const std::string& text) { return Json(text); })}};
+  if (diagnosis.stop) json["stop"] = stop_json(*diagnosis.stop);
   return json_text(json);
 }
 

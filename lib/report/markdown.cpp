@@ -8,6 +8,7 @@
 #include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/report/finding_words.hpp"
+#include "lib/report/stop_report.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
@@ -89,6 +90,21 @@ std::string finding(const FaultFinding& f) {
   return text + list("Evidence", evidence_lines(f));
 }
 
+/// The answer about the stop that was asked about; empty if none was.
+std::string stop_section(const Diagnosis& d) {
+  if (!d.stop) return "";
+  const StopAnswer& stop = *d.stop;
+  std::string text = "### " + escaped_markdown(stop_title(stop, d.log.sample_period_s)) + "\n\n";
+  for (const std::string& line : stop.summary) text += "- " + escaped_markdown(line) + "\n";
+  text += "\n";
+  const FactTable signals = stop_signal_table(stop, d.log.sample_period_s);
+  if (!signals.rows.empty()) text += "**" + signals.title + "**\n\n" + table(signals.head, signals.rows);
+  if (stop.short_log) text += list("How much so short a log shows", stop.short_log->notes);
+  const FactTable reach = stop_reach_table(stop);
+  if (!reach.rows.empty()) text += "**" + reach.title + "**\n\n" + table(reach.head, reach.rows);
+  return text + list("Not looked at", stop.not_looked_at);
+}
+
 std::string provenance(const Diagnosis& d) {
   std::string text = "<details><summary>Log and model</summary>\n\n";
   text += table({"", ""}, {{"log", d.log.path},
@@ -106,7 +122,7 @@ std::string provenance(const Diagnosis& d) {
 std::string render_markdown(const Diagnosis& d) {
   std::string text =
       fmt::format("## {}\n\n**{}**\n\n", escaped_markdown(d.log.path), escaped_markdown(verdict_sentence(d)));
-  text += fault_table(d);
+  text += fault_table(d) + stop_section(d);
   for (const FaultFinding& f : d.faults) text += finding(f);
   text += list(kSmallChangesTitle, small_change_lines(d));
   const FactTable condition = condition_table(d);

@@ -12,6 +12,7 @@
 #include "lib/diagnose/fault_event.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 #include "lib/report/finding_words.hpp"
+#include "lib/report/stop_report.hpp"
 
 namespace faultline {
 namespace {
@@ -154,6 +155,21 @@ std::string bullets(const char* title, const std::vector<std::string>& lines, in
   return text + "\n";
 }
 
+/// The answer about the stop that was asked about; empty if none was.
+std::string stop_block(const Diagnosis& d, const TimelineOptions& options) {
+  if (!d.stop) return "";
+  const StopAnswer& stop = *d.stop;
+  std::string text =
+      painted(printable(stop_title(stop, d.log.sample_period_s)), Paint::bold, options.color) + "\n";
+  for (const std::string& line : stop.summary)
+    text += wrapped(printable(line), "    ", options.width).replace(2, 1, "-");
+  text += "\n";
+  if (stop.short_log) text += bullets("How much so short a log shows", stop.short_log->notes, options.width);
+  const std::string reach = text_table(stop_reach_table(stop));
+  if (!reach.empty()) text += reach + "\n";
+  return text + bullets("Not looked at", stop.not_looked_at, options.width);
+}
+
 /// The faults with the highest confidence first; among equals the earliest.
 std::vector<const FaultFinding*> by_confidence(const std::vector<FaultFinding>& faults) {
   std::vector<const FaultFinding*> order;
@@ -192,6 +208,7 @@ std::string render_text(const Diagnosis& d, const TimelineOptions& options) {
   const bool judged = d.verdict == Verdict::healthy || !d.faults.empty();
   const std::string timeline = judged ? render_timeline(d, options) : "";
   if (!timeline.empty()) text += timeline + "\n";
+  text += stop_block(d, options);
   for (const FaultFinding& fault : d.faults) text += FaultBlock(fault, d.log, options).text() + "\n";
   text += bullets(kSmallChangesTitle, small_change_lines(d), options.width) + condition(d) +
           residuals_text(d) + bullets("Issues of the log", issue_lines(d.log.issues), options.width);

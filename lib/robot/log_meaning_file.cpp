@@ -11,6 +11,7 @@
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/core/text.hpp"
 #include "lib/log/channel_names.hpp"
+#include "lib/log/column_matching.hpp"
 #include "lib/robot/log_preset.hpp"
 #include "lib/robot/robot.hpp"
 #include "lib/robot/robot_file_parts.hpp"
@@ -151,12 +152,13 @@ void read_columns(const TomlTable& columns, int joints, ColumnMap& map) {
     if (is_family(key)) read_family(columns, key, joints, map);
   for (const std::string& channel : columns.keys()) {
     if (is_family(channel)) continue;
-    if (std::find(names.begin(), names.end(), channel) == names.end())
-      columns.fail(channel,
-                   fmt::format("is not a channel of a robot with {0} joints; expected t, q1..q{0}, "
-                               "dq1..dq{0}, tau1..tau{0}, q_ref1..q_ref{0}, dq_ref1..dq_ref{0}, "
-                               "tau_ref1..tau_ref{0} or tau_meas1..tau_meas{0}, or q, dq, .. for all joints",
-                               joints));
+    if (channel != kStopChannel && std::find(names.begin(), names.end(), channel) == names.end())
+      columns.fail(
+          channel,
+          fmt::format("is not a channel of a robot with {0} joints; expected t, q1..q{0}, "
+                      "dq1..dq{0}, tau1..tau{0}, q_ref1..q_ref{0}, dq_ref1..dq_ref{0}, "
+                      "tau_ref1..tau_ref{0} or tau_meas1..tau_meas{0}, q, dq, .. for all joints, or stop",
+                      joints));
     map[channel] = column_spec(columns, channel);
   }
 }

@@ -207,5 +207,13 @@ mass = 0.7
   expect_same_chain(robot.chain, robot_from_toml(robot_file_text(robot), "again").chain);
 }
 
+TEST(RobotFile, ItsColumnsMayHoldAStopFlag) {
+  const Robot robot =
+      robot_from_toml("axes = \"RP\"\n[log.columns]\nstop = \"E-Stop active\"\nq1 = \"J1\"\n", "r.toml");
+  EXPECT_EQ(robot.log.columns.at("stop").name, "E-Stop active");
+  const Robot again = robot_from_toml(robot_file_text(robot), "again");
+  EXPECT_EQ(again.log.columns.at("stop").name, "E-Stop active");
+}
+
 }  // namespace
 }  // namespace faultline

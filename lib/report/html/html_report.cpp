@@ -14,6 +14,7 @@
 #include "lib/report/html/elements.hpp"
 #include "lib/report/html/page_figures.hpp"
 #include "lib/report/model_facts.hpp"
+#include "lib/report/stop_report.hpp"
 #include "lib/report/text.hpp"
 
 namespace faultline {
@@ -64,6 +65,27 @@ std::string residual_table(const Diagnosis& d) {
       FactTable{"Residuals against the regenerated fault-free motion (1 = as in the healthy logs)",
                 {"joint", "velocity rms", "largest", "at", "position rms"},
                 residual_rows(d)});
+}
+
+/// The answer about the stop that was asked about; empty if none was.
+std::string stop_part(const Diagnosis& d) {
+  if (!d.stop) return "";
+  const StopAnswer& stop = *d.stop;
+  const double period = d.log.sample_period_s;
+  std::string text =
+      fmt::format("<h2 id=\"stop\">{}</h2>\n", escaped_markup(printable(stop_title(stop, period))));
+  text += html_list(stop.summary) + html_table(stop_signal_table(stop, period));
+  if (stop.short_log) text += html_part("How much so short a log shows", html_list(stop.short_log->notes));
+  return text + html_table(stop_reach_table(stop)) +
+         html_part("Not looked at", html_list(stop.not_looked_at));
+}
+
+/// The moments of the stop and of its first sign, counted from `zero_s`.
+std::vector<PlotMark> stop_marks(const Diagnosis& d, double zero_s) {
+  if (!d.stop) return {};
+  std::vector<PlotMark> marks = {{d.stop->question.time_s - zero_s, "stop"}};
+  if (d.stop->first_sign) marks.push_back({d.stop->first_sign->time_s - zero_s, "first sign"});
+  return marks;
 }
 
 std::string log_quality(const Diagnosis& d) {
@@ -158,12 +180,13 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
   const double zero_s = time_zero(d.log.start_s), period = d.log.sample_period_s;
   const RunCurves curves = counted_from(zero_s, details.curves);
   const std::vector<FaultFinding> faults = counted_from(zero_s, d.faults);
-  const std::vector<PageFigure> whole = run_figures(faults, curves);
-  std::string text =
-      html_head(printable(d.log.path).substr(0, 200), !whole.empty()) + "<body>\n" + top(d) + "<main>\n";
+  const std::vector<PlotMark> marks = stop_marks(d, zero_s);
+  const std::vector<PageFigure> whole = run_figures(faults, curves, marks);
+  std::string text = html_head(printable(d.log.path).substr(0, 200), !whole.empty()) + "<body>\n" + top(d) +
+                     "<main>\n" + stop_part(d);
   std::vector<PageFigure> all = whole;
   for (std::size_t i = 0; i < d.faults.size() && i < std::size_t{kFullFindings}; ++i) {
-    const std::vector<PageFigure> figures = fault_figures(faults[i], curves);
+    const std::vector<PageFigure> figures = fault_figures(faults[i], curves, marks);
     if (i > 0 && i == curves.details.size())
       text += "<p class=\"sub\">The faults from here on have no plots of their own; see the whole run.</p>\n";
     text += html_finding(d.faults[i], figures, period);

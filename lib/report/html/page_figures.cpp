@@ -116,6 +116,12 @@ PageFigure network_figure(const CurveWindow& window, const std::vector<PlotMark>
   return figure;
 }
 
+/// Adds marks in the order of time.
+void add_marks(std::vector<PlotMark>& marks, const std::vector<PlotMark>& more) {
+  marks.insert(marks.end(), more.begin(), more.end());
+  std::stable_sort(marks.begin(), marks.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+}
+
 void keep_drawable(std::vector<PageFigure>& figures) {
   std::erase_if(figures, [](const PageFigure& figure) { return figure.curves.empty(); });
 }
@@ -135,12 +141,14 @@ std::size_t joint_of(const FaultFinding& fault, const CurveWindow& window) {
 
 }  // namespace
 
-std::vector<PageFigure> run_figures(const std::vector<FaultFinding>& faults, const RunCurves& curves) {
+std::vector<PageFigure> run_figures(const std::vector<FaultFinding>& faults, const RunCurves& curves,
+                                    const std::vector<PlotMark>& more) {
   if (curves.empty()) return {};
   std::vector<PlotMark> marks;
   for (const FaultFinding& fault : faults)
     if (std::isfinite(fault.onset_s)) marks.push_back({fault.onset_s, fmt::format("fault {}", fault.id)});
   if (marks.size() > 30) marks.clear();  // the timeline shows them better
+  add_marks(marks, more);
   std::vector<PageFigure> figures = {residual_figure(curves.whole, curves, marks)};
   for (std::size_t j = 0; j < curves.whole.joints.size(); ++j)
     for (PageFigure& figure : joint_figures(curves.whole, curves, j, marks))
@@ -149,7 +157,8 @@ std::vector<PageFigure> run_figures(const std::vector<FaultFinding>& faults, con
   return figures;
 }
 
-std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves& curves) {
+std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves& curves,
+                                      const std::vector<PlotMark>& more) {
   const auto window = std::find_if(curves.details.begin(), curves.details.end(),
                                    [&](const CurveWindow& w) { return w.fault_id == fault.id; });
   if (window == curves.details.end()) return {};
@@ -157,6 +166,7 @@ std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves
   if (std::isfinite(fault.onset_s)) marks.push_back({fault.onset_s, "onset"});
   if (std::isfinite(fault.alarm_s)) marks.push_back({fault.alarm_s, "alarm"});
   if (std::isfinite(fault.end_s)) marks.push_back({fault.end_s, "end"});
+  add_marks(marks, more);
   std::vector<PageFigure> figures = {residual_figure(*window, curves, marks),
                                      evidence_figure(fault, *window, marks)};
   if (!window->joints.empty())

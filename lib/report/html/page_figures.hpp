@@ -49,11 +49,13 @@ struct PageFigure {
 };
 
 /// The plots of the whole run: residuals, then position, velocity and torque of each joint. They refer to
-/// `curves`, which must outlive them.
-std::vector<PageFigure> run_figures(const std::vector<FaultFinding>& faults, const RunCurves& curves);
+/// `curves`, which must outlive them. `more`: marks beside those of the faults, such as that of a stop.
+std::vector<PageFigure> run_figures(const std::vector<FaultFinding>& faults, const RunCurves& curves,
+                                    const std::vector<PlotMark>& more = {});
 
-/// The plots around one fault; none when `curves` has no detail of it.
-std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves& curves);
+/// The plots around one fault; none when `curves` has no detail of it. `more`: as above.
+std::vector<PageFigure> fault_figures(const FaultFinding& fault, const RunCurves& curves,
+                                      const std::vector<PlotMark>& more = {});
 
 /// A figure as it is without script and on paper: caption, legend, a picture and, to unfold, a table. The
 /// script of the page puts a plot into its element of class "live".
