@@ -85,6 +85,7 @@ BatchRow row_of(const Diagnosis& d) {
   row.joints = d.log.joints;
   row.warnings = issues_of(d, Severity::warning);
   row.severe = issues_of(d, Severity::severe);
+  if (d.score.is_known()) row.score = d.score.ratio();
   for (const JointResidual& residual : d.residuals) {
     row.residual_rms.push_back(residual.velocity_rms);
     row.residual_peak.push_back(residual.velocity_peak);
@@ -144,6 +145,7 @@ void fields(auto& v, MaybeConst<BatchRow> auto& row) {
   v("joints", row.joints);
   v("warnings", row.warnings);
   v("severe", row.severe);
+  v("score", row.score);
   v("residual_rms", row.residual_rms);
   v("residual_peak", row.residual_peak);
   v.as("condition", row.condition, parameters_json, parameters_from);
@@ -160,7 +162,8 @@ BatchRow row_from_json(const std::string& line) { return fields_from_json<BatchR
 
 std::string batch_csv_header() {
   return "file,verdict,faults,fault,joint,onset_s,end_s,alarm_s,confidence,all_faults,residual,rows,"
-         "rows_used,start_s,log_end_s,sample_period_s,warnings,severe,reason,report,log_sha256,model,model_sha256,doubt\n";
+         "rows_used,start_s,log_end_s,sample_period_s,warnings,severe,reason,report,log_sha256,model,model_sha256,doubt,"
+         "score\n";
 }
 
 std::string to_csv_line(const BatchRow& row) {
@@ -171,12 +174,12 @@ std::string to_csv_line(const BatchRow& row) {
     first = fmt::format("{},{},{},{},{},{}", to_string(f.label.kind), csv_joint(f.label.joint),
                         csv_cell(f.onset_s), csv_cell(f.end_s), csv_cell(f.alarm_s), csv_cell(f.confidence));
   }
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(row.log),
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(row.log),
                      row.verdict, row.faults.size(), first, csv_cell(all), csv_cell(residual_level(row)),
                      row.rows, row.rows_used, csv_cell(row.start_s), csv_cell(row.end_s),
                      csv_cell(row.sample_period_s), row.warnings, row.severe, csv_cell(row.reason),
                      row.result.empty() ? "" : "logs/" + row.result + ".json", row.sha256,
-                     csv_cell(row.model), row.model_sha256, csv_cell(row.doubt));
+                     csv_cell(row.model), row.model_sha256, csv_cell(row.doubt), csv_cell(row.score));
 }
 
 }  // namespace faultline

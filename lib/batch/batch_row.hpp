@@ -28,7 +28,9 @@ struct BatchRow {
   double end_s = std::numeric_limits<double>::quiet_NaN();
   double sample_period_s = std::numeric_limits<double>::quiet_NaN();
   int joints = 0;
-  int warnings = 0, severe = 0;            ///< kinds of issues of the log
+  int warnings = 0, severe = 0;  ///< kinds of issues of the log
+  /// EvidenceScore::ratio() of the diagnosis; NaN if it is not known.
+  double score = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> residual_rms;        ///< velocity, by joint, 1 = healthy (JointResidual)
   std::vector<double> residual_peak;       ///< likewise
   std::vector<FaultEvent> faults;          ///< by onset

@@ -183,6 +183,7 @@ Diagnosis diagnose(LogSource& log, const Model& model, const CaseBase& cases,
   diagnosis.condition = condition_of(run.day, model.robot.chain);
   diagnosis.roughness = run.roughness;
   diagnosis.judged_share = run.judged_share;
+  diagnosis.score = run.score;
   diagnosis.cannot_see = std::move(found.cannot_see);
   diagnosis = with_verdict(std::move(diagnosis), faults, model.sample_period_s, power_of(model.validation));
   if (diagnosis.log.issues.find(kResampled)) diagnosis.log.sample_period_s = rate.period_s;

@@ -14,6 +14,7 @@
 #include "lib/diagnose/condition.hpp"
 #include "lib/diagnose/stop/stop_answer.hpp"
 #include "lib/explain/evidence_course.hpp"
+#include "lib/explain/evidence_score.hpp"
 #include "lib/fault/fault_kind.hpp"
 #include "lib/log/time_axis.hpp"
 #include "lib/residual/residuals.hpp"
@@ -176,6 +177,7 @@ struct Diagnosis {
   /// By joint: noise level of the rows (torque that the model misses) over that of the learned logs, in the
   /// noisiest window; empty if it was not estimated.
   std::vector<double> roughness;
+  EvidenceScore score{};      ///< of the torque balance; not known for a log that it did not judge
   double judged_share = 1.0;  ///< share of the log that the regression could use; 1 if it was not used
   std::vector<std::string>
       cannot_see;  ///< what this log and model cannot show (torque meaning, missing channels)

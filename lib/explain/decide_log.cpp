@@ -12,9 +12,18 @@ constexpr double kAlmost = 5.0;          // nats over the mean square of residua
 constexpr std::size_t kTraced = 4;       // hypotheses whose evidence is traced
 constexpr double kTracedBeyond_s = 1.0;  // s beyond the alarm, up to which it is traced
 
+/// Returns whether a hypothesis has a size that may be a fault.
+bool may_be_fault(const FaultHypothesis& h) {
+  return h.kind != FaultKind::torque_loss || !(h.size[0] < kLeastLoss);
+}
+
 bool passes(const FaultHypothesis& h, const EvidenceLimits& limits) {
-  if (h.kind == FaultKind::torque_loss && h.size[0] < kLeastLoss) return false;
-  return h.gain > limits.of(h.kind);
+  return may_be_fault(h) && h.gain > limits.of(h.kind);
+}
+
+/// Returns the limit of the free form, nats.
+double limit_of_free_form(const EvidenceLimits& limits) {
+  return std::max(kOfNoKind, limits.of(FaultKind::unknown));
 }
 
 std::vector<LabelScore> scores_of(const LogExplanation& e) {
@@ -57,6 +66,24 @@ EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy) {
 
 double least_limit(const EvidenceLimits& limits) { return *std::ranges::min_element(limits.nats); }
 
+EvidenceScore score_of(const LogExplanation& e, const EvidenceLimits& limits) {
+  EvidenceScore out;
+  const auto add = [&](const FaultClaim& claim, double nats, double limit) {
+    out = larger(out, {claim.label(), claim.onset_s, std::max(0.0, nats), limit});
+  };
+  for (const std::vector<FaultHypothesis>* judged : {&e.best, &e.quiet})
+    for (const FaultHypothesis& h : *judged)
+      if (may_be_fault(h)) add(h, h.gain, limits.of(h.kind));
+  if (!e.free_course.time_s.empty() || e.best.empty())
+    add({.kind = FaultKind::unknown, .onset_s = e.free_form.onset_s}, e.free_gain,
+        limit_of_free_form(limits));
+  return out;
+}
+
+EvidenceScore score_of(const ExplainedFault& fault) {
+  return {fault.label(), fault.claim.onset_s, fault.evidence, fault.limit};
+}
+
 std::vector<ExplainedFault> named_faults(const LogExplanation& e, const EvidenceLimits& limits,
                                          std::size_t most) {
   std::vector<ExplainedFault> out;
@@ -94,7 +121,7 @@ ExplainedFault as_unknown(const ExplainedFault& named, const LogExplanation& e) 
 }
 
 std::optional<ExplainedFault> unnamed_fault(const LogExplanation& e, const EvidenceLimits& limits) {
-  const double limit = std::max(kOfNoKind, limits.of(FaultKind::unknown));
+  const double limit = limit_of_free_form(limits);
   if (e.best.empty() || e.free_gain <= limit) return std::nullopt;
   const FaultHypothesis& nearest = e.best.front();
   ExplainedFault named;

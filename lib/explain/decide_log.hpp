@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "lib/explain/evidence_score.hpp"
 #include "lib/explain/explain.hpp"
 
 namespace faultline {
@@ -64,6 +65,12 @@ struct ExplainedFault {
 
   FaultLabel label() const { return claim.label(); }
 };
+
+/// Returns the score of a log that the healthy robot should explain.
+EvidenceScore score_of(const LogExplanation& explanation, const EvidenceLimits& limits);
+
+/// Returns the score that a fault gives its log.
+EvidenceScore score_of(const ExplainedFault& fault);
 
 /// Returns the limits, raised to at least kBeyondSimulated times the evidence that a healthy log with the
 /// false finding `fault` gave for each kind that was judged.

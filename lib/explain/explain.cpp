@@ -25,12 +25,13 @@ constexpr std::size_t kOnsets = 6, kOnsetsOfDrifts = 4;
 constexpr double kMuchLess = 0.5;  // share of a torque loss's excess over noise: a clipping drive leaves less
 constexpr double kMayPass =
     0.33;  // share of the least limit from which a log is judged: the search is not exact
-constexpr std::size_t kJudgedFirst = 4;  // best candidates, judged before a log counts as quiet,
-constexpr double kHidden = 2.0;          // for these, times the least limit: quiet windows exceed it once
-constexpr std::size_t kRefined = 5;      // best hypotheses that are refined, at most
-constexpr double kSameNoise = 0.1;       // of a variance: noises that differ by less are the same
-constexpr std::size_t kBeside = 5;       // best hypotheses beside which the noise is estimated anew
-constexpr int kRoundsOfNoise = 3;        // of the noise beside the best explanation
+constexpr std::size_t kJudgedFirst = 4;    // best candidates, judged before a log counts as quiet,
+constexpr std::size_t kJudgedOfQuiet = 2;  // best candidates of a quiet log, judged for its score
+constexpr double kHidden = 2.0;            // for these, times the least limit: quiet windows exceed it once
+constexpr std::size_t kRefined = 5;        // best hypotheses that are refined, at most
+constexpr double kSameNoise = 0.1;         // of a variance: noises that differ by less are the same
+constexpr std::size_t kBeside = 5;         // best hypotheses beside which the noise is estimated anew
+constexpr int kRoundsOfNoise = 3;          // of the noise beside the best explanation
 
 /// Returns the `most` best candidates of a kind and joint, best first.
 std::vector<Candidate> of(const std::vector<Candidate>& all, FaultKind kind, Joint joint,
@@ -145,6 +146,15 @@ bool stands_out(double free_gain, std::vector<Candidate> found, double least_evi
   });
 }
 
+/// Judges the best candidates of a log in which none stands out.
+std::vector<FaultHypothesis> judged_of_quiet(const LogFit& fit, std::vector<Candidate> found) {
+  std::ranges::stable_sort(found, std::ranges::greater{}, &Candidate::score);
+  if (found.size() > kJudgedOfQuiet) found.resize(kJudgedOfQuiet);
+  JudgedHypotheses bench{fit};
+  for (const Candidate& c : found) bench.go(c);
+  return std::move(bench.judged);
+}
+
 /// Returns the evidence of a fault from its onset on, by the whitened residuals without it and with it,
 /// beside the nats `at_onset` of other measurements. A row without weight counts as noise.
 EvidenceCourse course_of(const LogFit& fit, double onset_s, double at_onset, const Stacked& without,
@@ -221,7 +231,10 @@ LogExplanation explain_log(const LogFit& fit, double least_evidence) {
   out.free_gain = gain_of(fit, out.free_form);
   out.healthy_square = fit.healthy().mean_square();
   const std::vector<Candidate> found = search(fit);
-  if (!stands_out(out.free_gain, found, least_evidence, fit)) return out;
+  if (!stands_out(out.free_gain, found, least_evidence, fit)) {
+    out.quiet = judged_of_quiet(fit, found);
+    return out;
+  }
   judge_candidates(found, out.free_form, bench);
   std::vector<FaultHypothesis> top = best_of_each(bench.judged);
   if (top.size() > kRefined) top.resize(kRefined);

@@ -12,6 +12,9 @@ namespace faultline {
 /// Explanation of a log by the best hypothesis of each kind and joint, best first; none if none stands out.
 struct LogExplanation {
   std::vector<FaultHypothesis> best;
+  /// The nearest hypotheses of a log in which none stands out: for its score alone, without course and
+  /// misfit.
+  std::vector<FaultHypothesis> quiet{};
   double healthy_square = 1.0;  ///< mean square of the whitened residuals of the healthy robot
   // At coarse rates there is no free form: a hypothesis whose residuals are much larger than noise has an
   // infinite misfit.

@@ -38,6 +38,7 @@ struct NextFault {
   std::vector<std::vector<FaultClaim>> spans{};
   ExplainedFault unknown{};  ///< the best of them as a fault of no kind
   ExplainedLog rest{};       ///< explanation of the log beside the known faults
+  EvidenceScore score{};     ///< of the log beside the known faults
 };
 
 /// Returns the effects of the day for reports, if the model uses them: friction, gain and offset by joint,
@@ -110,7 +111,7 @@ NextFault next_fault(const GivenLog& given, const std::vector<FaultClaim>& known
              return begin_as_one(claim, fault.claim);
            });
   });
-  NextFault out{std::move(named)};
+  NextFault out{.named = std::move(named), .score = score_of(e, limits)};
   for (const ExplainedFault& fault : out.named)
     out.spans.push_back(fault_spans(fit, fault.claim, e.free_form));
   if (out.named.empty() && known.empty())
@@ -276,10 +277,12 @@ std::vector<ExplainedFault> without_slips(std::vector<ExplainedFault> faults) {
 ExplainedLog explained_beside(const GivenLog& given, const std::vector<FaultClaim>& before) {
   ExplainedLog out;
   std::vector<ExplainedFault> faults;
+  EvidenceScore score;  // what a known fault leaves is no alarm: the score is that of a log without one
   while (faults.size() < kMostFaults) {
     const std::vector<FaultClaim> known = claims_but(faults, faults.size(), before);
     NextFault next = next_fault(given, known);
     out = std::move(next.rest);
+    if (known.empty()) score = next.score;
     if (next.named.empty()) break;
     for (ExplainedFault& fault : best_faults(given, known, next)) faults.push_back(std::move(fault));
   }
@@ -287,6 +290,8 @@ ExplainedLog explained_beside(const GivenLog& given, const std::vector<FaultClai
   faults = unnested(std::move(faults));
   std::ranges::stable_sort(faults, {}, [](const ExplainedFault& fault) { return fault.claim.onset_s; });
   out.faults = without_worn_spots(given.log, given.model, before, without_slips(std::move(faults)));
+  for (const ExplainedFault& fault : out.faults) score = larger(score, score_of(fault));
+  out.score = score;
   return out;
 }
 
@@ -320,6 +325,7 @@ ExplainedLog explained_with_signals(const GivenLog& given, const std::vector<Fau
     std::vector<JudgedStretch> stretches = judged_stretches(signals.begin, alone.faults, known, &fit);
     const std::vector<FaultClaim> shown = balance_claims(stretches);
     out = shown.empty() ? alone : explained_beside(given, joined(known, shown));
+    out.score = larger(out.score, alone.score);
     out.stretches = std::move(stretches);
     if (shown.empty() || out.faults.empty()) return out;
   }

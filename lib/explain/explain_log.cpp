@@ -54,7 +54,7 @@ ExplainedLog explained_coarse(const CoarseLog& log, const EvidenceLimits& limits
     if (const std::optional<CoarseLog> before = settled_part(log))
       if (ExplainedLog out = explained_coarse(*before, limits); !out.faults.empty()) return out;
   std::optional<ExplainedFault> fault = decide_log(e, limits);
-  ExplainedLog out;
+  ExplainedLog out{.score = score_of(e, limits)};
   out.judged_s =
       log.period_s() * static_cast<double>(std::count(log.log.lost.begin(), log.log.lost.end(), false));
   if (!fault) return out;
@@ -115,6 +115,7 @@ ExplainedLog explain_at_coarse_rate(const UniformLog& log, const OneStepModel& m
     ExplainedLog explained = explained_coarse(*alone, limits);
     out.faults = std::move(explained.faults);
     out.loudness = std::move(explained.loudness);
+    out.score = larger(out.score, explained.score);
     out.judged_s += explained.judged_s;
   }
   out.stretches = judged_stretches(signals.begin, out.faults, signals.known, nullptr);

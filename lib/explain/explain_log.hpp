@@ -40,6 +40,7 @@ struct ExplainedLog {
   std::vector<FaultClaim> followed{};  ///< faults that lasted when the log began, in the order given
   std::vector<DayEffect> day{};        ///< effects of the day beside the faults
   std::vector<double> loudness{};      ///< by joint: the noise of its rows, times that of the healthy logs
+  EvidenceScore score{};               ///< beside the faults that lasted when the log began
   double judged_s = 0.0;               ///< of the log that was judged, by rows with weight
 };
 

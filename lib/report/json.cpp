@@ -71,6 +71,17 @@ Json condition_json(const ConditionItem& item) {
           {"beyond", item.is_beyond()}};
 }
 
+/// Null for a log that the torque balance did not judge.
+Json score_json(const EvidenceScore& score) {
+  if (!score.is_known()) return nullptr;
+  Json json;
+  put_label(json, score.label);
+  json["evidence_nats"] = number_or_null(score.evidence);
+  json["limit_nats"] = number_or_null(score.limit);
+  json["ratio"] = number_or_null(score.ratio());
+  return json;
+}
+
 Json opinion_json(const Opinion& opinion) {
   Json json;
   put_label(json, opinion.label);
@@ -175,6 +186,7 @@ std::string render_json(const Diagnosis& diagnosis) {
                      {"program", {{"version", diagnosis.program_version}}},
                      {"verdict", to_string(diagnosis.verdict)},
                      {"verdict_reason", text_or_null(diagnosis.verdict_reason)},
+                     {"score", score_json(diagnosis.score)},
                      {"faults", list_of<Json>(diagnosis.faults, fault_json)},
                      {"small_changes", list_of<Json>(diagnosis.small_changes, small_change_json)},
                      {"condition", list_of<Json>(diagnosis.condition, condition_json)},

@@ -27,6 +27,7 @@ BatchRow faulty_row() {
   row.joints = 3;
   row.warnings = 1;
   row.severe = 2;
+  row.score = 3.125;
   row.residual_rms = {1.0 / 3.0, kNan, 2.5};
   row.residual_peak = {4.0, kNan, 9.0};
   row.faults = {{{FaultKind::locked, 2_joint}, 0.5, 0.625, kNan, 0.75},
@@ -46,6 +47,7 @@ TEST(BatchRow, IsReadBackFromItsJsonLine) {
   EXPECT_EQ(read.log, faulty_row().log);
   EXPECT_EQ(read.result, faulty_row().result);
   EXPECT_EQ(read.end_s, faulty_row().end_s);
+  EXPECT_EQ(read.score, 3.125);
   EXPECT_EQ(read.faults[1].label, (FaultLabel{FaultKind::unknown, Joint()}));
   EXPECT_TRUE(std::isnan(read.residual_rms[1]));
   ASSERT_EQ(read.condition.size(), 1u);

@@ -22,6 +22,7 @@ inline Diagnosis healthy_diagnosis() {
   d.model = {"bench", std::string(64, 'b'), std::string(64, 'c')};
   d.program_version = "0.1.0";
   d.verdict = Verdict::healthy;
+  d.score = {{FaultKind::payload_change, 2_joint}, 3.75, 12.5, 100.0};
   for (int number = 1; number <= 3; ++number)
     d.residuals.push_back({.joint = Joint::numbered(number),
                            .velocity_rms = 0.97 + 0.01 * number,
@@ -89,6 +90,7 @@ inline Diagnosis faulty_diagnosis() {
                     .count = 2,
                     .rows_dropped = 2});
   d.faults = {locked_joint()};
+  d.score = {{FaultKind::locked, 2_joint}, 4.21, 312.5, 100.0};
   d.residuals[1].velocity_rms = 12.5;
   d.residuals[1].velocity_peak = 41.5;
   d.cannot_see = {"the torque is the commanded one, so a fault inside the drive shows only in the motion"};
@@ -127,6 +129,7 @@ inline Diagnosis inconclusive_diagnosis() {
   d.verdict = Verdict::inconclusive;
   d.verdict_reason = "3 rows are too few to judge; at least 20 are needed";
   d.residuals.clear();
+  d.score = {};
   return d;
 }
 

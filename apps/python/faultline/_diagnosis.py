@@ -59,11 +59,13 @@ class Curves:
 
 class Diagnosis(Result):
     """What was found in a log; attributes are the members of the JSON report: verdict (healthy, faulty or
-    inconclusive), verdict_reason, faults, residuals, condition, cannot_see, log, model, program. A pickle
-    keeps them and the reports, without what reads the log again: to_html() and curves()."""
+    inconclusive), verdict_reason, score (None if the torque balance did not judge the log), faults, residuals,
+    condition, cannot_see, log, model, program. A pickle keeps them and the reports, without what reads the log
+    again: to_html() and curves()."""
 
     _parts = {"faults": Fault}
     verdict: str
+    score: Optional[Record]
     faults: List[Fault]
     residuals: List[Record]
     condition: List[Record]

@@ -98,7 +98,11 @@ void ExplainMonitor::explain_window(bool is_followed) {
   const std::vector<OngoingFault> unfollowed = follow(explained.followed);
   report_stretches(explained.stretches, until_s);
   for (const ExplainedFault& fault : explained.faults)
-    if (fault.claim.onset_s <= until_s) report(fault, unfollowed);
+    if (fault.claim.onset_s <= until_s) {
+      report(fault, unfollowed);
+      score_ = larger(score_, score_of(fault));
+    }
+  if (explained.score.onset_s <= until_s) score_ = larger(score_, explained.score);
   add_day(explained.day);
   judged_s_ += explained.judged_s;
   read_s_ += end_s - window_.time.front();
@@ -152,7 +156,10 @@ SignalStretches ExplainMonitor::signals_of_window() const {
 /// Adds the judged stretches that begin before `until_s`, up to which this window decides.
 void ExplainMonitor::report_stretches(const std::vector<JudgedStretch>& judged, double until_s) {
   for (const JudgedStretch& each : judged)
-    if (each.stretch.onset_s <= until_s) stretches_.push_back(each);
+    if (each.stretch.onset_s <= until_s) {
+      stretches_.push_back(each);
+      score_ = larger(score_, score_of(each.fault));
+    }
   while (!unjudged_.empty() && unjudged_.front().onset_s <= until_s) unjudged_.pop_front();
 }
 

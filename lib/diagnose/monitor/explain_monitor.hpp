@@ -39,6 +39,8 @@ class ExplainMonitor {
   const std::vector<JudgedStretch>& stretches() const { return stretches_; }
   /// Estimates of the effects of the day; empty if no window could be explained.
   std::vector<DayEffect> day() const;
+  /// Of the window with the largest ratio.
+  const EvidenceScore& score() const { return score_; }
   /// Share of the log whose rows count for the regression; 0 if no window could be explained.
   double judged_share() const { return read_s_ > 0.0 ? judged_s_ / read_s_ : 0.0; }
   /// By joint: noise level of the rows over that of the healthy logs, in the noisiest window.
@@ -76,6 +78,7 @@ class ExplainMonitor {
   std::vector<JudgedStretch> stretches_;
   std::vector<DayEffect> day_;  ///< sums: value over variance, in `std` 1 over variance
   std::vector<double> noise_level_;
+  EvidenceScore score_;
   double judged_s_ = 0.0, read_s_ = 0.0;  ///< over all windows
 };
 

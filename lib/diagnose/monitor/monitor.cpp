@@ -245,7 +245,8 @@ MonitoredLog monitor(LogSource& log, const Model& model, const DiagnoseOptions& 
           .relations_judged_s = relations.judged_s(),
           .relations_beyond_s = relations.beyond_s(),
           .roughness = explained.noise_level(),
-          .judged_share = by_samples ? 1.0 : explained.judged_share()};
+          .judged_share = by_samples ? 1.0 : explained.judged_share(),
+          .score = explained.score()};
 }
 
 MonitoredLog monitor_at(LogSource& log, const Model& model, double onset_s, double end_s) {

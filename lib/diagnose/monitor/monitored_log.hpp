@@ -44,6 +44,7 @@ struct MonitoredLog {
   std::vector<double> relations_beyond_s;  ///< by relation: for how long beyond the learned inputs, s
   std::vector<double> roughness;           ///< Diagnosis::roughness
   double judged_share = 1.0;               ///< Diagnosis::judged_share
+  EvidenceScore score{};                   ///< Diagnosis::score
 };
 
 }  // namespace faultline

@@ -229,14 +229,17 @@ bool strikes(const CoarseLog& log, const Base& base) {
 
 }  // namespace
 
-bool stands_out(const CoarseLog& log) {
+RoughSearch search_roughly(const CoarseLog& log) {
   const Base base = base_of(log, 0.0);
-  if (strikes(log, base)) return true;
+  RoughSearch out;
+  if (strikes(log, base)) return {.stands_out = true};
   const int step = std::max(1, static_cast<int>(std::lround(kRoughStep_s / log.period_s())));
   for (const std::vector<CoarseCandidate>& group : candidates_of(log, base, {step, log.samples()}))
-    for (const CoarseCandidate& c : group)
-      if (c.score > kStandsOut) return true;
-  return false;
+    for (const CoarseCandidate& c : group) {
+      if (c.score > kStandsOut) return {.stands_out = true};
+      if (!out.nearest || c.score > out.nearest->score) out.nearest = c;
+    }
+  return out;
 }
 
 std::optional<int> first_strike(const CoarseLog& log) { return strike_of(log, base_of(log, kTolerated)); }

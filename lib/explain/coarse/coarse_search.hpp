@@ -20,9 +20,14 @@ struct CoarseSearch {
   std::vector<int> onsets;                  ///< samples to try for every kind, most promising first
 };
 
-/// Returns whether a search is worthwhile: a lasting fault with one of many onsets 1 s apart is likely, or
-/// the healthy robot does not explain some successive samples.
-bool stands_out(const CoarseLog& log);
+/// What a search at onsets 1 s apart finds.
+struct RoughSearch {
+  /// A search is worthwhile: a fault is likely, or the healthy robot does not explain some successive
+  /// samples.
+  bool stands_out = false;
+  std::optional<CoarseCandidate> nearest{};  ///< the best candidate, if none stands out
+};
+RoughSearch search_roughly(const CoarseLog& log);
 
 /// Searches onsets at distances of 0.05 s (at least a sample) for every kind that is a column: about the
 /// healthy trajectory, by the gains of a filter that tolerates small errors.

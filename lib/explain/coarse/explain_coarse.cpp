@@ -192,7 +192,8 @@ std::vector<JudgedGuess> to_refine(const std::vector<JudgedGuess>& all) {
 
 LogExplanation explain_coarse(const CoarseLog& log) {
   CoarseBench bench(log);
-  const bool is_quiet = !stands_out(log);
+  const RoughSearch rough = search_roughly(log);
+  const bool is_quiet = !rough.stands_out;
   if (!is_quiet) judge_candidates(search_coarse(log), bench);
   for (int j = 0; j < log.joints(); ++j) {
     if (!is_quiet) judge_standstill(j, bench);
@@ -206,7 +207,13 @@ LogExplanation explain_coarse(const CoarseLog& log) {
     const double enough = std::max(kWorthRefining, kMayWin * bench.best_gain());
     if (j.gain >= enough && !fixed) refine(j, bench);
   }
-  return bench.explanation();
+  LogExplanation out = bench.explanation();
+  if (rough.nearest) {
+    CoarseBench nearest(log);
+    nearest.go(rough.nearest->guess, 1);
+    out.quiet = nearest.explanation().best;
+  }
+  return out;
 }
 
 FaultClaim followed_coarse(const CoarseLog& log, FaultClaim lasting, double limit) {

@@ -120,6 +120,19 @@ TEST(ExplainMonitor, AFurtherFaultIsFoundDuringALastingFault) {
   EXPECT_NEAR(judged.episodes()[1].onset_s(), 120.0, 0.1);
 }
 
+TEST(ExplainMonitor, TheScoreOfALongLogIsThatOfItsWindowNearestToAnAlarm) {
+  const Model m = model();
+  Log log = long_log(38, 150.0);
+  const EvidenceScore healthy = monitored(m, log, 4096).score();
+  EXPECT_TRUE(healthy.is_known());
+  EXPECT_LT(healthy.ratio(), 1.0);
+  lose_torque(log, 120.0, 121.0);
+  const ExplainMonitor judged = monitored(m, log, 4096);
+  ASSERT_EQ(judged.episodes().size(), 1u);
+  EXPECT_GT(judged.score().ratio(), 1.0);
+  EXPECT_NEAR(judged.score().onset_s, 120.0, 1.0);
+}
+
 SignalStretch stretch(SignalPair pair, double onset_s, double end_s) {
   return {
       .pair = pair, .joint = 1_joint, .onset_s = onset_s, .alarm_s = onset_s, .end_s = end_s, .nats = 500.0};

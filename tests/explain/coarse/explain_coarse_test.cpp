@@ -64,6 +64,19 @@ TEST(ExplainCoarse, AHealthyDayHasNoFault) {
   EXPECT_TRUE(faults_of([](Log&) {}).empty());
 }
 
+TEST(ExplainCoarse, TheScoreOfAHealthyDayIsBelowOneAndThatOfALostTorqueAbove) {
+  const auto score = [](double share) {
+    Log log = day_log(1.03, 9);
+    for (std::size_t k = kFaulty; k < log.time.size(); ++k) log.tau[1][k] /= 1.0 - share;
+    MemorySource source(std::move(log), "log");
+    return explain_whole_log(uniform_log(source, kPeriod_s), learned()).score;
+  };
+  EXPECT_TRUE(score(0.0).is_known());
+  EXPECT_LT(score(0.0).ratio(), 1.0);
+  EXPECT_GT(score(0.3).ratio(), 1.0);
+  EXPECT_GT(score(0.6).ratio(), score(0.3).ratio());
+}
+
 TEST(ExplainCoarse, AStuckEncoderBeginsBetweenItsLastTrueAndItsFirstFalseCode) {
   for (const int j : {0, 1, 2}) {
     const auto faults = faults_of([&](Log& log) {
