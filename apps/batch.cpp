@@ -70,6 +70,7 @@ struct BatchArguments : BatchRequest {
 int run_command(BatchArguments request, ColorChoice color) {
   BatchOptions& options = request.options;
   take_shard(request.shard, options);
+  joint_pairs(options.twins, "--twins");
   take_models(request.given, request.cases, request);
   const std::vector<BatchLog> logs = claimed_logs(request);
   const std::vector<ModelFiles> models = load(request.models);
@@ -115,6 +116,12 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
   command.add_flag("--html", arguments.options.html, "Also write a page for each log");
   command.add_flag("--identify", arguments.options.identify,
                    "Identify the robot from each healthy log alone, and show the trend of its parameters");
+  command
+      .add_option(
+          "--twins", arguments.options.twins,
+          "Pairs of joints of a kind, such as 1:4,2:5 for left and right; lists a pair that differs from "
+          "the others")
+      ->type_name("PAIRS");
   add_file_option(command, "--json", arguments.json, "Write the summary as JSON");
   command
       .add_option("--threads", arguments.options.threads,

@@ -32,6 +32,7 @@ void add_learn(CLI::App& app, Program& program);
 void add_diagnose(CLI::App& app, Program& program);
 void add_compare(CLI::App& app, Program& program);
 void add_batch(CLI::App& app, Program& program);
+void add_history(CLI::App& app, Program& program);
 void add_golden(CLI::App& app, Program& program);
 void add_reproduce(CLI::App& app, Program& program);
 void add_help(CLI::App& app, Program& program);

@@ -41,10 +41,18 @@ Json parameters_json(const std::vector<ParameterValue>& parameters) {
   return json;
 }
 
+/// With its unit, in which the values of a series are read.
+Json condition_json(const std::vector<ParameterValue>& condition) {
+  Json json = parameters_json(condition);
+  for (const ParameterValue& item : condition)
+    if (!item.unit.empty()) json[item.name]["unit"] = item.unit;
+  return json;
+}
+
 std::vector<ParameterValue> parameters_from(const Json& json) {
   std::vector<ParameterValue> values;
   for (const auto& [name, p] : json.items())
-    values.push_back({name, number_or_nan(p.at("value")), number_or_nan(p.at("std")), ""});
+    values.push_back({name, number_or_nan(p.at("value")), number_or_nan(p.at("std")), p.value("unit", "")});
   return values;
 }
 
@@ -148,7 +156,7 @@ void fields(auto& v, MaybeConst<BatchRow> auto& row) {
   v("score", row.score);
   v("residual_rms", row.residual_rms);
   v("residual_peak", row.residual_peak);
-  v.as("condition", row.condition, parameters_json, parameters_from);
+  v.as("condition", row.condition, condition_json, parameters_from);
   v.as("parameters", row.parameters, parameters_json, parameters_from);
   v.or_null("doubt", row.doubt);
 }

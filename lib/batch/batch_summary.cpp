@@ -84,6 +84,27 @@ Json models_json(const BatchSummary& summary) {
   return models;
 }
 
+/// Condition from log to log, for each model that has logs.
+std::vector<RobotWear> wear_of(const std::vector<BatchRow>& rows, const BatchSummary& summary) {
+  std::vector<RobotWear> all;
+  for (const ModelFacts& model : summary.facts.models) {
+    if (!summary.models.contains(model.sha256)) continue;
+    std::vector<WearLog> logs;
+    for (const BatchRow& row : rows)
+      if (row.model_sha256 == model.sha256) logs.push_back({row.log, row.start_s, row.condition});
+    all.push_back(robot_wear(model.name, model.sha256, std::move(logs)));
+  }
+  return all;
+}
+
+void compare_twins(BatchSummary& summary) {
+  summary.robots.not_applicable = "the batch has one model";
+  summary.joints.not_applicable = "no pairs of joints are given (--twins)";
+  if (summary.wear.size() > 1) summary.robots = compare_robots(summary.wear);
+  const std::vector<JointPair> pairs = joint_pairs(summary.facts.twins, "--twins");
+  if (!pairs.empty()) summary.joints = compare_joints(summary.wear, pairs);
+}
+
 /// The first logs without a diagnosis with their reasons, and where the others stand.
 std::string reasons_text(const std::vector<LogWithoutDiagnosis>& logs) {
   std::string text;
@@ -113,6 +134,7 @@ void fields(auto& v, MaybeConst<BatchFacts> auto& facts) {
   v("logs", facts.logs);
   v("shard", facts.shard);
   v("shards", facts.shards);
+  v.unless_empty("twins", facts.twins);
 }
 
 std::string settings_of(const BatchFacts& facts) {
@@ -170,6 +192,8 @@ BatchSummary summary_of(const std::vector<BatchRow>& rows, const BatchFacts& fac
   summary.all = counts_of(all);
   for (const auto& [model, members] : models) summary.models[model] = counts_of(members);
   for (const auto& [folder, members] : folders) summary.folders[folder] = counts_of(members);
+  summary.wear = wear_of(rows, summary);
+  compare_twins(summary);
   return summary;
 }
 
@@ -181,16 +205,19 @@ std::string to_json(const BatchSummary& summary) {
     folders.push_back(json);
   }
   const BatchFacts& facts = summary.facts;
-  const Json json = {{"schema", "faultline/batch-summary/2"},
-                     {"models", models_json(summary)},
-                     {"program", {{"version", facts.program_version}}},
-                     {"options", facts.options},
-                     {"shard", facts.shard},
-                     {"shards", facts.shards},
-                     {"exit_status", summary.status},
-                     {"all", counts_json(summary.all)},
-                     {"faults", kinds_json(summary)},
-                     {"folders", folders}};
+  const Json json = {
+      {"schema", "faultline/batch-summary/2"},
+      {"models", models_json(summary)},
+      {"program", {{"version", facts.program_version}}},
+      {"options", facts.options},
+      {"shard", facts.shard},
+      {"shards", facts.shards},
+      {"exit_status", summary.status},
+      {"all", counts_json(summary.all)},
+      {"faults", kinds_json(summary)},
+      {"folders", folders},
+      {"wear", list_of<Json>(summary.wear, [](const RobotWear& wear) { return to_json(wear, false); })},
+      {"twins", {{"robots", to_json(summary.robots)}, {"joints", to_json(summary.joints)}}}};
   return json_text(json);
 }
 
@@ -207,6 +234,8 @@ std::string to_text(const BatchSummary& summary) {
   for (const ModelFacts& model : summary.facts.models)
     for (const std::string& doubt : model.grave_doubts)
       text += fmt::format("  no log can be called healthy by {}: {}\n", brief(model.name), brief(doubt));
+  for (const RobotWear& wear : summary.wear) text += to_text(wear);
+  text += to_text(summary.robots) + to_text(summary.joints);
   return text + reasons_text(summary.not_diagnosed);
 }
 

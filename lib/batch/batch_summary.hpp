@@ -8,6 +8,8 @@
 #include "lib/batch/batch_row.hpp"
 #include "lib/core/joint.hpp"
 #include "lib/diagnose/diagnosis.hpp"
+#include "lib/wear/robot_wear.hpp"
+#include "lib/wear/twins.hpp"
 
 namespace faultline {
 
@@ -19,6 +21,7 @@ struct BatchFacts {
   int logs = 0;         ///< in the list, before sharding
   int shard = 0;        ///< takes the logs whose position is this one modulo `shards`
   int shards = 1;
+  std::string twins;  ///< pairs of joints to compare, such as "1:4,2:5"; decides no result of a log
 };
 
 /// Of all that decides a result besides the log; of facts that differ in nothing else but logs and shards it
@@ -51,6 +54,9 @@ struct BatchSummary {
   std::map<std::string, BatchCounts> models;          ///< by BatchRow::model_sha256
   std::map<std::string, BatchCounts> folders;         ///< by folder_of()
   std::map<std::string, std::map<Joint, int>> kinds;  ///< faults by kind and joint
+  std::vector<RobotWear> wear;                        ///< by model, those of the facts with logs
+  TwinReport robots;                                  ///< the models compared, if there are several
+  TwinReport joints;                                  ///< pairs of joints, if facts.twins names some
   std::vector<LogWithoutDiagnosis> not_diagnosed;     ///< unusable or failed, in the order of the rows
   int status = 0;                                     ///< exit status: the worst of all logs
 };

@@ -192,6 +192,7 @@ BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open,
   facts.models = used(all, logs);
   facts.program_version = program_version();
   facts.options = options_text(options);
+  facts.twins = options.twins;
   facts.logs = static_cast<int>(logs.size());
   facts.shard = options.shard;
   facts.shards = options.shards;

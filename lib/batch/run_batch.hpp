@@ -24,6 +24,7 @@ struct BatchOptions {
   int threads = 0;        ///< logs at once; 0 = one a core
   int shard = 0;          ///< take the logs whose position in the list is this one modulo `shards`
   int shards = 1;
+  std::string twins;                                     ///< pairs of joints to compare (BatchFacts::twins)
   bool wait = false;                                     ///< for another batch into the same folder
   std::function<void(const BatchProgress&)> progress{};  ///< never called by two threads at once
 };

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "lib/core/error.hpp"
 
@@ -39,15 +40,14 @@ ErrorCode code_of(int sqlite, SqliteMode mode) {
   return writing && mode != SqliteMode::read_only ? ErrorCode::output : ErrorCode::input;
 }
 
-const char* advice_for(int sqlite) {
+std::string advice_for(int sqlite, const SqlitePurpose& purpose) {
   if (sqlite == SQLITE_READONLY_ROLLBACK)
-    return "holds a change that was interrupted; the next `faultline cases confirm`, `reject` or `add` rolls "
-           "it back";
+    return "holds a change that was interrupted; " + purpose.undo + " rolls it back";
   switch (sqlite & 0xff) {
     case SQLITE_NOTADB:
-      return "is not an SQLite file; a case base written by faultline was expected";
+      return "is not an SQLite file; a " + purpose.what + " written by faultline was expected";
     case SQLITE_CORRUPT:
-      return "is a damaged or truncated case base; restore it from a copy or run learn again";
+      return "is a damaged or truncated " + purpose.what + "; " + purpose.mend;
     case SQLITE_FULL:
       return "cannot be written, the disk is full; nothing was changed. Make room and try again";
     case SQLITE_READONLY:
@@ -57,11 +57,12 @@ const char* advice_for(int sqlite) {
     case SQLITE_CANTOPEN:
       return "cannot be opened; check that it exists, is a file and may be read";
     case SQLITE_INTERRUPT:
-      return "takes far longer to read than its size explains; it is not a case base written by faultline";
+      return "takes far longer to read than its size explains; it is not a " + purpose.what +
+             " written by faultline";
     case SQLITE_IOERR:
       return "cannot be read or written to its end; nothing was changed. Check the disk";
     default:
-      return "is not a valid case base";
+      return "is not a valid " + purpose.what;
   }
 }
 
@@ -121,8 +122,14 @@ std::vector<std::string> sqlite_files(const std::string& path) {
   return {path, path + "-journal", path + "-wal", path + "-shm"};
 }
 
-SqliteFile::SqliteFile(const std::string& path, SqliteMode mode, const std::string& name)
-    : name_(name.empty() ? path : name), mode_(mode) {
+SqlitePurpose case_base_purpose() {
+  return {"case base", "the next `faultline cases confirm`, `reject` or `add`",
+          "restore it from a copy or run learn again"};
+}
+
+SqliteFile::SqliteFile(const std::string& path, SqliteMode mode, const std::string& name,
+                       SqlitePurpose purpose)
+    : name_(name.empty() ? path : name), mode_(mode), purpose_(std::move(purpose)) {
   const int code = sqlite3_open_v2(path.c_str(), &db_, open_flags(mode), nullptr);
   if (code != SQLITE_OK) {
     sqlite3_close(db_);
@@ -157,7 +164,7 @@ void SqliteFile::fail(int code) const {
   const int extended = db_ ? sqlite3_extended_errcode(db_) : code;
   const std::string reason = db_ ? sqlite3_errmsg(db_) : sqlite3_errstr(code);
   throw Error(code_of(extended & 0xff, mode_), name_,
-              std::string(advice_for(extended)) + " (SQLite: " + reason + ")");
+              advice_for(extended, purpose_) + " (SQLite: " + reason + ")");
 }
 
 void SqliteFile::run(const char* sql) {

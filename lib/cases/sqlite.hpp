@@ -15,6 +15,15 @@ namespace faultline {
 /// they exist or not. SQLite applies any journal that it finds.
 std::vector<std::string> sqlite_files(const std::string& path);
 
+/// What a file is for, in the words of messages.
+struct SqlitePurpose {
+  std::string what;  ///< "case base"
+  std::string undo;  ///< the command that rolls an interrupted change back
+  std::string mend;  ///< what to do about a damaged file
+};
+/// That of a case base.
+SqlitePurpose case_base_purpose();
+
 enum class SqliteMode { read_only, change, create };
 
 /// An open SQLite file; every failure throws Error(input), or Error(output) if writing failed, with the
@@ -24,7 +33,8 @@ enum class SqliteMode { read_only, change, create };
 class SqliteFile {
  public:
   /// `name` stands in messages; empty: the path. The path ":memory:" is a new database without a file.
-  SqliteFile(const std::string& path, SqliteMode mode, const std::string& name = "");
+  SqliteFile(const std::string& path, SqliteMode mode, const std::string& name = "",
+             SqlitePurpose purpose = case_base_purpose());
   ~SqliteFile();
   SqliteFile(const SqliteFile&) = delete;
   SqliteFile& operator=(const SqliteFile&) = delete;
@@ -43,6 +53,7 @@ class SqliteFile {
 
   std::string name_;
   SqliteMode mode_;
+  SqlitePurpose purpose_;
   long long steps_left_ = 0;  ///< in units of kStepsAtATime
   sqlite3* db_ = nullptr;
 };

@@ -7,23 +7,10 @@
 
 #include "lib/core/number_text.hpp"
 #include "lib/core/statistics.hpp"
+#include "lib/diagnose/condition_words.hpp"
 
 namespace faultline {
 namespace {
-
-const char* words_of(DayEffectKind kind) {
-  switch (kind) {
-    case DayEffectKind::friction:
-      return "friction";
-    case DayEffectKind::torque_gain:
-      return "drive torque";
-    case DayEffectKind::torque_offset:
-      return "torque offset";
-    case DayEffectKind::torque_ripple:
-      return "torque ripple";
-  }
-  return "";
-}
 
 ConditionItem item_of(const DayEffect& effect, const Chain& chain) {
   const bool is_share = effect.kind == DayEffectKind::friction || effect.kind == DayEffectKind::torque_gain;
@@ -32,7 +19,7 @@ ConditionItem item_of(const DayEffect& effect, const Chain& chain) {
   item.joint = effect.joint;
   item.kind = effect.kind;
   item.name = fmt::format("{}_{}", to_string(effect.kind), item.joint);
-  item.what = fmt::format("{} of joint {}", words_of(effect.kind), item.joint);
+  item.what = condition_words(item.name);
   item.unit = is_share ? "%" : turns ? "N m" : "N";
   const double unit = is_share ? 100.0 : 1.0;
   item.value = unit * effect.value;

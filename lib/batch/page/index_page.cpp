@@ -137,6 +137,36 @@ std::string trends(const std::vector<BatchRow>& rows) {
   return "<h2>Trends</h2>\n<div id=\"trends-live\"></div>\n<noscript>" + still + "</noscript>\n";
 }
 
+/// Of each model that has logs.
+std::string wear_part(const BatchSummary& summary) {
+  std::string text;
+  for (const RobotWear& wear : summary.wear) {
+    if (summary.wear.size() > 1)
+      text += "<h3>" + escaped_markup(printable(wear.robot).substr(0, kLongestName)) + "</h3>\n";
+    if (wear.not_applicable.empty())
+      text += wear.by_date
+                  ? "<p>By the dates of the logs.</p>\n"
+                  : "<p>In the order of the files: trends by date are not applicable, since not every "
+                    "log contains a date.</p>\n";
+    text += wear_table(wear);
+  }
+  if (text.empty()) return "";
+  return "<h2>Wear</h2>\n<p>Condition from log to log against the model, with 95 % intervals. Beyond chance: of "
+         "robots that do not change, one in 100 shows such a change.</p>\n" +
+         text;
+}
+
+/// Only if there are several models or pairs of joints.
+std::string twins_part(const BatchSummary& summary) {
+  std::string text;
+  if (summary.wear.size() > 1) text += "<h3>Robots</h3>\n" + twins_html(summary.robots);
+  if (!summary.facts.twins.empty()) text += "<h3>Pairs of joints</h3>\n" + twins_html(summary.joints);
+  if (text.empty()) return "";
+  return "<h2>Twins</h2>\n<p>Condition of robots and joints of a kind, each against its own model; listed is what "
+         "differs from the others more than they scatter. Of batches of equals, one in 100 lists something.</p>\n" +
+         text;
+}
+
 std::string options_of_kind(const BatchSummary& summary) {
   std::string text;
   for (const auto& [kind, joints] : summary.kinds) text += "<option>" + escaped_markup(kind) + "</option>";
@@ -259,7 +289,7 @@ std::string render_index_page(const std::vector<BatchRow>& rows, const BatchSumm
       facts.shards > 1 ? fmt::format("; part {} of {} of {} logs", facts.shard, facts.shards, facts.logs)
                        : "");
   text += counts_line(summary.all) + model_table(summary) + folder_table(summary) + kind_table(summary) +
-          trends(rows);
+          trends(rows) + wear_part(summary) + twins_part(summary);
   text += "<h2 id=\"list\">Logs</h2>\n" + tools(summary) + index_table(rows, pages) + provenance(facts) +
           "</main>\n";
   text +=

@@ -11,12 +11,12 @@
 #include "lib/core/text.hpp"
 #include "lib/explain/day_effects.hpp"
 #include "lib/report/plot/line_plot.hpp"
+#include "lib/wear/robot_wear.hpp"
 
 namespace faultline {
 namespace {
 
 constexpr std::size_t kPoints = 300;  // of a curve, at most
-constexpr double kEpoch = 1e9;        // a start time above it is seconds since 1970
 constexpr int kJoints = 6;            // curves in one panel
 constexpr std::size_t kFolders = 6;   // likewise
 
@@ -112,7 +112,7 @@ PlotPanel parameter_panel(const std::vector<const BatchRow*>& judged) {
 
 bool all_have_dates(const std::vector<BatchRow>& rows) {
   return std::all_of(rows.begin(), rows.end(),
-                     [](const BatchRow& row) { return !is_judged(row) || row.start_s >= kEpoch; });
+                     [](const BatchRow& row) { return !is_judged(row) || is_date(row.start_s); });
 }
 
 std::string index_trends(const std::vector<BatchRow>& rows) {
