@@ -12,7 +12,8 @@
 namespace faultline {
 
 /// Returns onset, alarm and end of each fault of a diagnosis in JSON, sorted by time; for a log without
-/// faults, its verdict; and the stop that was asked about, with its first sign. Throws Error(input) when the file is no such diagnosis.
+/// faults, its verdict; and the stop that was asked about, with its first sign. Throws Error(input) when the
+/// file is no such diagnosis.
 std::vector<LogEvent> events_of_file(const std::string& path);
 
 /// Writes the diagnosed log as MCAP with the results of the diagnosis (docs/formats-mcap.md), by a further

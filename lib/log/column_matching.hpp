@@ -26,8 +26,8 @@ inline constexpr int kRowNumber = -2;
 /// time of a log without a time column.
 inline constexpr const char* kRowNumberName = "@row";
 
-/// Key of a ColumnMap for the column whose first change is a stop of the machine. It is no channel: the column
-/// is kept under its own name.
+/// Key of a ColumnMap for the column whose first change is a stop of the machine. It is no channel: the
+/// column is kept under its own name.
 inline constexpr const char* kStopChannel = "stop";
 
 /// The columns of a file that become channels. `joints` is the number of joints that have a position.

@@ -181,18 +181,18 @@ Json fault_json(const FaultFinding& fault) {
 
 std::string render_json(const Diagnosis& diagnosis) {
   Json json = {{"schema", "faultline/diagnosis/1"},
-                     {"log", log_json(diagnosis.log)},
-                     {"model", model_json(diagnosis.model)},
-                     {"program", {{"version", diagnosis.program_version}}},
-                     {"verdict", to_string(diagnosis.verdict)},
-                     {"verdict_reason", text_or_null(diagnosis.verdict_reason)},
-                     {"score", score_json(diagnosis.score)},
-                     {"faults", list_of<Json>(diagnosis.faults, fault_json)},
-                     {"small_changes", list_of<Json>(diagnosis.small_changes, small_change_json)},
-                     {"condition", list_of<Json>(diagnosis.condition, condition_json)},
-                     {"residuals", list_of<Json>(diagnosis.residuals, residual_json)},
-                     {"cannot_see", list_of<Json>(diagnosis.cannot_see,
-                                                  [](const std::string& text) { return Json(text); })}};
+               {"log", log_json(diagnosis.log)},
+               {"model", model_json(diagnosis.model)},
+               {"program", {{"version", diagnosis.program_version}}},
+               {"verdict", to_string(diagnosis.verdict)},
+               {"verdict_reason", text_or_null(diagnosis.verdict_reason)},
+               {"score", score_json(diagnosis.score)},
+               {"faults", list_of<Json>(diagnosis.faults, fault_json)},
+               {"small_changes", list_of<Json>(diagnosis.small_changes, small_change_json)},
+               {"condition", list_of<Json>(diagnosis.condition, condition_json)},
+               {"residuals", list_of<Json>(diagnosis.residuals, residual_json)},
+               {"cannot_see",
+                list_of<Json>(diagnosis.cannot_see, [](const std::string& text) { return Json(text); })}};
   if (diagnosis.stop) json["stop"] = stop_json(*diagnosis.stop);
   return json_text(json);
 }
