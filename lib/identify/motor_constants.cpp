@@ -93,7 +93,7 @@ JointBalance balance_of(const JointColumns& columns, int j, const Eigen::VectorX
   JointBalance out{.joint = j, .factor_a = r.leftCols(bases), .factor_y = r.col(bases)};
   const double torque = out.factor_y.norm();
   const Eigen::MatrixXd prior =
-      Eigen::MatrixXd::Identity(bases, bases) * std::pow(kLeastResidual * torque / kPriorTorque, 2);
+      Eigen::MatrixXd::Identity(bases, bases) * Eigen::numext::abs2(kLeastResidual * torque / kPriorTorque);
   const Eigen::MatrixXd normal = out.factor_a.transpose() * out.factor_a + prior;
   const Eigen::VectorXd alone = solve_definite(normal, out.factor_a.transpose() * out.factor_y);
   out.scale = std::max((out.factor_y - out.factor_a * alone).norm(), kLeastResidual * torque);
@@ -227,7 +227,7 @@ class ConstantProblem {
   Eigen::VectorXd theta_right(const ConstantFit& fit) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(balances_.front().factor_a.cols());
     for (int k = 0; k < count(); ++k)
-      right += current(fit, k) / std::pow(balances_[k].scale, 2) *
+      right += current(fit, k) / Eigen::numext::abs2(balances_[k].scale) *
                (balances_[k].factor_a.transpose() * balances_[k].factor_y);
     return right;
   }
@@ -236,7 +236,7 @@ class ConstantProblem {
     double out = 0.0;
     const Eigen::MatrixXd covariance = inverse_definite(theta_normal(fit) * seconds_);
     for (int k = 0; k < count(); ++k) {
-      if (fit.sign[k] * balances_[k].friction < 0.0) out += std::pow(balances_[k].friction, 2);
+      if (fit.sign[k] * balances_[k].friction < 0.0) out += Eigen::numext::abs2(balances_[k].friction);
       const Eigen::RowVectorXd row = inertia_.row(k);
       const double mean = row.dot(fit.theta);
       if (mean < 0.0) out += mean * mean / (row * covariance * row.transpose()).value();
