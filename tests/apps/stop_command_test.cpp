@@ -151,7 +151,8 @@ TEST_F(StopCommand, TheRecordingMarksTheStop) {
   const std::string out = folder_.file("out.mcap");
   diagnose(log_, {"--at", "9.5", "--mcap", out});
   bool is_marked = false;
-  for (const RecordedMessage& message : read_mcap(out).messages.at("/faultline/diagnosis"))
+  const RecordedFile file = read_mcap(out);
+  for (const RecordedMessage& message : file.messages.at("/faultline/diagnosis"))
     is_marked = is_marked || message.bytes.find("stop") != std::string::npos;
   EXPECT_TRUE(is_marked);
 }
