@@ -10,13 +10,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <string>
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/matrix/decompositions.hpp"
 #include "lib/identify/parameter_space.hpp"
+#include "lib/identify/weak_form/weak_form.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -74,12 +74,6 @@ JointColumns columns_of(const WeakSets& windows, int set, int j) {
     out.torque[k] = all[k].torque(j, -windows.shifts.first);
   }
   return out;
-}
-
-double seconds_of(const WeakWindows& windows) {
-  std::set<std::pair<int, long>> seconds;
-  for (const WeakWindow& w : windows.all()) seconds.emplace(w.log, static_cast<long>(std::floor(w.time_s)));
-  return static_cast<double>(seconds.size());
 }
 
 /// Returns the balance of a joint. `column_scale` divides the base columns.
@@ -315,7 +309,7 @@ std::optional<MotorConstants> motor_constants(const WeakSets& windows) {
   const int n = windows.space.joints();
   const int set = std::min<int>(kConstantWindows, static_cast<int>(windows.sets.size()) - 1);
   const Eigen::VectorXd scale = column_scales(windows, set);
-  const double seconds = seconds_of(windows.sets[set]);
+  const double seconds = seconds_covered(windows.sets[set]);
   std::vector<JointBalance> balances = balances_of(windows, set, scale, seconds);
   if (balances.size() < 2 || balances.size() > kMostSignedJoints) return std::nullopt;
   std::vector<int> joint;

@@ -47,7 +47,7 @@ TEST_F(HistoryCommand, AddsABatchOnceAndWritesPageAndJson) {
 TEST_F(HistoryCommand, IsShownWithoutResultsAndOfOneRobotAlone) {
   EXPECT_EQ(history({world_.file("out")}).status, 0);
   EXPECT_EQ(history({}).status, 0);
-  const ProgramRun unknown = history({"--robot", "nobody"});
+  const ProgramRun unknown = history({"--robot", "unknown"});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_TRUE(has(unknown.err, "is no robot of this history")) << unknown.err;
 }

@@ -26,13 +26,6 @@ constexpr double kDependent = 3e-3;   ///< least share of a scaled column that i
 constexpr double kNotExcited = 1e-9;  ///< rms of a column, in units of the residual: less is rounding
 constexpr double kMixed = 0.03;  ///< share of a column in a dependent one beyond which both are confounded
 
-/// Returns the number of seconds of the logs in which a window begins.
-double seconds_covered(const WeakWindows& windows) {
-  std::set<std::pair<int, long>> seconds;
-  for (const WeakWindow& w : windows.all()) seconds.emplace(w.log, static_cast<long>(std::floor(w.time_s)));
-  return static_cast<double>(seconds.size());
-}
-
 double condition(const Eigen::MatrixXd& a) {
   if (a.cols() == 0) return 0.0;
   const Eigen::VectorXd s = singular_values(a);
@@ -138,6 +131,12 @@ void judge(const WeakSystem& s, const Eigen::VectorXd& robust, WeakFit& fit) {
 }
 
 }  // namespace
+
+double seconds_covered(const WeakWindows& windows) {
+  std::set<std::pair<int, long>> seconds;
+  for (const WeakWindow& w : windows.all()) seconds.emplace(w.log, static_cast<long>(std::floor(w.time_s)));
+  return static_cast<double>(seconds.size());
+}
 
 double residual_block_s(double total_s, double parameters) {
   // Bounds of a block's length, and the number of blocks for each parameter.

@@ -37,6 +37,9 @@ struct WeakSystem {
 /// covariance.
 double residual_block_s(double total_s, double parameters);
 
+/// Returns the number of seconds of the logs in which a window begins.
+double seconds_covered(const WeakWindows& windows);
+
 /// Returns the row of joint `j` of a window in the linear parameters of the space, with 0 for the timing.
 /// `width`, `bend`: indices of its friction widths.
 Eigen::RowVectorXd linear_row(const ParameterSpace& space, const WeakWindow& window, int j, int width,
