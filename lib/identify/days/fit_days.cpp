@@ -170,22 +170,26 @@ VectorXd whitened(const MatrixXd& torque, const std::vector<Whitener>& white) {
   return out.reshaped();
 }
 
+/// Returns the block of one day; `free` are the parameters of the robot that are estimated.
+DayBlock block_of(const HealthyDay& day, const BalanceModel& model, const std::vector<int>& free,
+                  const VectorXd& between) {
+  const std::vector<Whitener> white = whiteners(day.std, model.noise);
+  const MatrixXd y = whitened(day.rows.column, white)(Eigen::all, free);
+  const MatrixXd w = whitened(day.day_column, white);
+  const VectorXd r = whitened(day.rows.torque - day.piece, white);
+  const Eigen::Index robot = y.cols(), effects = w.cols();
+  NormalEquations sums{MatrixXd::Zero(robot + effects, robot + effects), VectorXd(robot + effects)};
+  sums.matrix.topLeftCorner(robot, robot) = y.transpose() * y;
+  sums.matrix.bottomLeftCorner(effects, robot) = w.transpose() * y;
+  sums.matrix.bottomRightCorner(effects, effects) = w.transpose() * w;
+  sums.vector << y.transpose() * r, w.transpose() * r;
+  return day_block(sums, between);
+}
+
 std::vector<DayBlock> day_blocks(const DayDraft& draft, const std::vector<int>& free,
                                  const VectorXd& between) {
   std::vector<DayBlock> out;
-  for (const HealthyDay& day : draft.days) {
-    const std::vector<Whitener> white = whiteners(day.std, draft.model.noise);
-    const MatrixXd y = whitened(day.rows.column, white)(Eigen::all, free);
-    const MatrixXd w = whitened(day.day_column, white);
-    const VectorXd r = whitened(day.rows.torque - day.piece, white);
-    const Eigen::Index robot = y.cols(), effects = w.cols();
-    NormalEquations sums{MatrixXd::Zero(robot + effects, robot + effects), VectorXd(robot + effects)};
-    sums.matrix.topLeftCorner(robot, robot) = y.transpose() * y;
-    sums.matrix.bottomLeftCorner(effects, robot) = w.transpose() * y;
-    sums.matrix.bottomRightCorner(effects, effects) = w.transpose() * w;
-    sums.vector << y.transpose() * r, w.transpose() * r;
-    out.push_back(day_block(sums, between));
-  }
+  for (const HealthyDay& day : draft.days) out.push_back(block_of(day, draft.model, free, between));
   return out;
 }
 
@@ -207,13 +211,15 @@ VectorXd all_parameters(const BalanceModel& m, const std::vector<int>& free, con
   return out;
 }
 
-/// Returns the draft with the noise of its rows, from the residual of robot and days. `order`: of the
-/// autoregression.
-DayDraft with_noise(DayDraft draft, int order) {
+/// Returns the draft with the noise of its rows, from the residual of days and robot: `robot` has the
+/// parameters of the one for each day. `order`: of the autoregression.
+DayDraft with_noise(DayDraft draft, const std::vector<VectorXd>& robot, int order) {
   BalanceModel& m = draft.model;
   std::vector<LogResidual> left;
-  for (const HealthyDay& day : draft.days)
-    left.push_back({&day.rows, left_over(day, m.theta), {}, rows_near_change(day, m)});
+  for (std::size_t d = 0; d < draft.days.size(); ++d) {
+    const HealthyDay& day = draft.days[d];
+    left.push_back({&day.rows, left_over(day, robot[d]), {}, rows_near_change(day, m)});
+  }
   m.noise = with_variance(left, m.setting, std::move(m.noise));
   for (std::size_t d = 0; d < left.size(); ++d) {
     HealthyDay& day = draft.days[d];
@@ -304,6 +310,22 @@ Eigen::VectorXd prior_of_a_day(const BalanceModel& model, const Eigen::VectorXd&
   return without_doubles(model, kUnseenDays * between + variance_of(model, kUnseen));
 }
 
+/// Returns the draft with the noise of rows that the robot has not seen: of each day beside the robot of the
+/// other days and the effects of the day. `without` are these robots. Rows that are a part of the fit have
+/// less noise, since few or short logs leave the many terms of a robot much freedom. A single day keeps the
+/// noise of its own fit.
+DayDraft with_unseen_noise(DayDraft draft, const std::vector<BalanceModel>& without) {
+  if (draft.days.size() < 2) return draft;
+  const std::vector<int> free = free_columns(draft);
+  std::vector<VectorXd> robot;
+  for (std::size_t d = 0; d < draft.days.size(); ++d) {
+    HealthyDay& day = draft.days[d];
+    robot.push_back(without[d].theta);
+    day.effect = block_of(day, draft.model, free, without[d].day_variance).effect(robot.back()(free));
+  }
+  return with_noise(std::move(draft), robot, kFilterOrder);
+}
+
 }  // namespace
 
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
@@ -314,7 +336,8 @@ FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& spac
     draft = with_terms_of_round(std::move(draft), round);
     if (round == 0) draft = with_first_piece(std::move(draft));
     draft = with_piece_paths(std::move(draft), round < kFinePathsFrom);
-    draft = with_noise(std::move(draft), round < kWhiteRounds ? 0 : kFilterOrder);
+    const std::vector<VectorXd> robot(draft.days.size(), draft.model.theta);
+    draft = with_noise(std::move(draft), robot, round < kWhiteRounds ? 0 : kFilterOrder);
     MixedEffects fit = fit_mixed_effects(std::move(draft), between);
     draft = std::move(fit.draft);
     between = variance_between_days(draft.model, fit.moments);
@@ -326,6 +349,8 @@ FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& spac
     m.theta = robot.theta;
     m.day_variance = prior_of_a_day(m, variance_between_days(m, robot.moments));
   }
+  draft = with_unseen_noise(std::move(draft), out.without);
+  for (BalanceModel& m : out.without) m.noise = draft.model.noise;
   for (HealthyDay& day : draft.days) out.pieces.push_back({day.rows.time_s, std::move(day.path)});
   draft.model.day_variance = prior_of_a_day(draft.model, between);
   out.model = std::move(draft.model);
