@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/core/joint.hpp"
-#include "lib/explain/day_effects.hpp"
+#include "lib/explain/day/day_effects.hpp"
 #include "lib/robot/chain.hpp"
 
 namespace faultline {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lib/diagnose/condition_words.hpp"
 
-#include "lib/explain/day_effects.hpp"
+#include "lib/explain/day/day_effects.hpp"
 
 namespace faultline {
 namespace {

@@ -6,7 +6,7 @@
 #include "lib/diagnose/decision.hpp"
 #include "lib/diagnose/diagnosis.hpp"
 #include "lib/diagnose/monitor/monitored_log.hpp"
-#include "lib/explain/day_effects.hpp"
+#include "lib/explain/day/day_effects.hpp"
 #include "lib/model/model.hpp"
 
 namespace faultline {

@@ -6,11 +6,12 @@
 #include <limits>
 #include <optional>
 
-#include "lib/explain/day_ripples.hpp"
+#include "lib/explain/day/day_ripples.hpp"
 #include "lib/explain/fault_spans.hpp"
 #include "lib/explain/judge.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
+#include "lib/explain/several_pushes.hpp"
 
 namespace faultline {
 namespace {
@@ -36,9 +37,10 @@ struct NextFault {
   std::vector<ExplainedFault> named;  ///< none if the rest of the log is healthy
   /// By named fault: the spans in which the log shows it, if it is linear.
   std::vector<std::vector<FaultClaim>> spans{};
-  ExplainedFault unknown{};  ///< the best of them as a fault of no kind
-  ExplainedLog rest{};       ///< explanation of the log beside the known faults
-  EvidenceScore score{};     ///< of the log beside the known faults
+  std::vector<ExplainedFault> pushes{};  ///< that explain the log better than the best of them; or none
+  ExplainedFault unknown{};              ///< the best of them as a fault of no kind
+  ExplainedLog rest{};                   ///< explanation of the log beside the known faults
+  EvidenceScore score{};                 ///< of the log beside the known faults
 };
 
 /// Returns the effects of the day for reports, if the model uses them: friction, gain and offset by joint,
@@ -96,6 +98,20 @@ bool is_too_weak(const ExplainedFault& fault, const EvidenceLimits& limits, cons
   return is_first && fault.evidence <= left * limits.of(fault.claim.kind);
 }
 
+/// Returns the pushes that explain a log together if they do so better than its best fault, which lasts, and
+/// than the free form. A fault that lasts may explain more than the first push, but less than all of them;
+/// the many disturbances of a fault of no known kind have another form than pushes. `e` is the explanation
+/// of the log, `best` its best named fault.
+std::vector<ExplainedFault> pushes_instead(const LogFit& fit, const LogExplanation& e,
+                                           const ExplainedFault& best, const EvidenceLimits& limits) {
+  const auto push = std::ranges::find(e.best, FaultKind::collision, &FaultHypothesis::kind);
+  const double needed = std::max(best.evidence, e.free_gain);
+  if (best.claim.end_s - best.claim.onset_s < kLongestBlow_s || push == e.best.end() ||
+      push->gain * kMostFaults < needed)
+    return {};
+  return several_pushes(fit, limits, kMostFaults, needed);
+}
+
 NextFault next_fault(const GivenLog& given, const std::vector<FaultClaim>& known) {
   const EvidenceLimits& limits = given.limits;
   // The halt of a known lock raises the noise of the other joints and makes the search less exact.
@@ -112,6 +128,7 @@ NextFault next_fault(const GivenLog& given, const std::vector<FaultClaim>& known
            });
   });
   NextFault out{.named = std::move(named), .score = score_of(e, limits)};
+  if (!out.named.empty()) out.pushes = pushes_instead(fit, e, out.named.front(), limits);
   for (const ExplainedFault& fault : out.named)
     out.spans.push_back(fault_spans(fit, fault.claim, e.free_form));
   if (out.named.empty() && known.empty())
@@ -208,6 +225,7 @@ std::vector<ExplainedFault> repeated_fault(const GivenLog& given, const std::vec
 /// leaves much; or a fault of no known kind, if these leave much, too.
 std::vector<ExplainedFault> best_faults(const GivenLog& given, const std::vector<FaultClaim>& known,
                                         const NextFault& next) {
+  if (!next.pushes.empty()) return next.pushes;
   const ExplainedFault& alone = next.named.front();
   // A drive that clips is no known kind: several known faults that explain the log are preferred to it.
   const bool is_enough = suffices(alone) && alone.claim.kind != FaultKind::unknown;

@@ -8,7 +8,7 @@
 #include "lib/balance/balance_model.hpp"
 #include "lib/balance/one_step/one_step_model.hpp"
 #include "lib/balance/uniform_log.hpp"
-#include "lib/explain/day_effects.hpp"
+#include "lib/explain/day/day_effects.hpp"
 #include "lib/explain/decide_log.hpp"
 #include "lib/explain/signal_stretch.hpp"
 

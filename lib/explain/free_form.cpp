@@ -30,11 +30,10 @@ VectorXd row_costs(const LogFit& fit, const FreeForm& change) {
   VectorXd out = VectorXd::Zero(rows);
   for (int j = 0; j < fit.joints(); ++j) {
     const VectorXd explained = 0.5 * change.left.segment(j * rows, rows).cwiseAbs2();
-    const double usual = fit.model().torque_rms[j] / fit.noise().joint[j].innovation;
     VectorXd free = explained;
     for (int k = 0; k < rows; ++k)
       if (fit.time_s()[k] >= change.onset_s && fit.time_s()[k] <= change.end_s)
-        free[k] = 0.5 * elementary::log1p(Eigen::numext::abs2(usual / fit.std()(k, j)));
+        free[k] = free_row_price(fit, k, j);
     out += free.sum() < explained.sum() ? free : explained;
   }
   return out;
@@ -187,7 +186,7 @@ class RowsBeforeChange {
 /// grid, and at each row beside the best of them.
 Change cheapest_change(const LogFit& fit, const Stacked& white, ChangeOf of) {
   RowsBeforeChange before(fit, white);
-  const int rows = before.rows(), first = first_onset_row(fit);
+  const int rows = before.rows(), first = first_onset_row(fit, FaultKind::unknown);
   std::vector<NormalEquations> all;
   if (of == ChangeOf::some_joints) {
     before.add(rows);
@@ -230,6 +229,11 @@ double explained_again_s(const LogFit& fit, const Stacked& left, const Change& c
 }
 
 }  // namespace
+
+double free_row_price(const LogFit& fit, int row, int j) {
+  const double usual = fit.model().torque_rms[j] / fit.noise().joint[j].innovation;
+  return 0.5 * elementary::log1p(Eigen::numext::abs2(usual / fit.std()(row, j)));
+}
 
 Stacked torque_without_piece(const LogFit& fit) {
   if (!fit.has_piece()) return fit.residual();

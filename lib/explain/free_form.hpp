@@ -7,6 +7,9 @@ namespace faultline {
 
 inline constexpr int kRowsOfChange = 6;  ///< rows that a change of the work piece reaches on either side
 
+/// Returns the nats of a row of joint `j` (from 0) with a torque of its own, of usual size for the joint.
+double free_row_price(const LogFit& fit, int row, int j);
+
 /// Returns the residual without the work piece, by its path before effects of the day were estimated.
 Stacked torque_without_piece(const LogFit& fit);
 

@@ -7,6 +7,7 @@
 
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
+#include "lib/explain/free_form.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
@@ -265,21 +266,23 @@ FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
 double price_of_shrinking(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
   if (column_kind(claim.kind) != FaultKind::torque_loss) return 0.0;
   const BalanceModel& m = fit.model();
-  const DayLayout day = day_layout(m);
-  const int j = claim.joint.index(), base = day.base;
-  const VectorXd theta = m.theta.head(base), changed = theta.cwiseProduct(e.day.head(base));
-  double square = 0.0, product = 0.0, rows = 0.0;
-  for (int k = 0; k < fit.count(); ++k) {
-    if (fit.time_s()[k] <= claim.onset_s || fit.time_s()[k] >= claim.end_s) continue;
-    if (fit.std()(k, j) == kNoWeight) continue;
-    const auto column = fit.rows().column[j].row(k).head(base);
-    const double usual = column.dot(theta);
-    square += usual * usual;
-    product += usual * column.dot(changed);
-    ++rows;
+  const int j = claim.joint.index(), effects = day_layout(m).count();
+  VectorXd day = e.day;
+  day.tail(day.size() - effects).setZero();
+  const VectorXd usual = fit.rows().column[j] * m.theta,
+                 changed = fit.day_torque(day).segment(j * fit.count(), fit.count());
+  std::vector<int> rows;
+  for (int k = 0; k < fit.count(); ++k)
+    if (fit.time_s()[k] > claim.onset_s && fit.time_s()[k] < claim.end_s && fit.std()(k, j) < kNoWeight)
+      rows.push_back(k);
+  const double square = usual(rows).squaredNorm(), product = usual(rows).dot(changed(rows)),
+               share = 1.0 + (square > 0.0 ? product / square : 0.0);
+  double out = 0.0;
+  for (const int k : rows) {
+    const double most = free_row_price(fit, k, j);
+    out += share > 0.0 ? std::clamp(-elementary::log(share), 0.0, most) : most;
   }
-  const double share = 1.0 + e.day[day.gain(j)] + (square > 0.0 ? product / square : 0.0);
-  return rows * (share > 0.0 ? std::clamp(-elementary::log(share), 0.0, kForcedRow) : kForcedRow);
+  return out;
 }
 
 FaultHypothesis judge_clipped(const LogFit& fit, FaultClaim claim) {

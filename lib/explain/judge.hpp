@@ -21,11 +21,11 @@ FaultHypothesis judge_false_position(const LogFit& fit, FaultClaim claim, double
 /// reading are linearised about size zero.
 FaultColumns columns_about_healthy(const LogFit& fit, const FaultClaim& claim);
 
-/// Returns the nats of a torque loss beside effects of the day that shrink the inertia to a share of it: a
-/// drive with less torque that moves a lighter robot. The loss scales the measured torque alike, so that
-/// every residual shrinks, whatever it is. The density of an acceleration is that of its residual times the
-/// inertia, so that each row from onset to end costs the logarithm of the share (equation (14) of
-/// docs/how-it-works.md), but no more than one that an unknown force explains. 0 for other kinds.
+/// Returns the nats of a torque loss beside effects of the day that shrink the modelled torque of its joint
+/// to a share of it: a drive with less torque that moves a lighter robot with less friction. The loss scales
+/// the measured torque alike, so that every residual shrinks, whatever it is. Each row from onset to end
+/// costs the logarithm of the share (equation (14) of docs/how-it-works.md), but no more than a row with a
+/// torque of its own (free_row_price()). 0 for other kinds.
 double price_of_shrinking(const LogFit& fit, const FaultClaim& claim, const Explanation& explanation);
 
 /// Judges a drive that limits its torque, which is of no known kind and looks like the loss of a share of the

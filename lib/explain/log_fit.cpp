@@ -9,6 +9,7 @@
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
+#include "lib/explain/day/own_noise.hpp"
 #include "lib/explain/free_form.hpp"
 
 namespace faultline {
@@ -26,14 +27,6 @@ constexpr double kModelShare = 0.004;  // share of each model term: error of the
 constexpr double kLeastNoiseLevel = 0.3,
                  kMostNoiseLevel = 4.0;  // bounds of the noise, times that of the healthy logs
 
-/// Rows that count for the noise in any case: s, and share of the log, from its first motion on, or from its
-/// start if it changes before. A log at rest does not show its noise.
-constexpr double kFirstStretch_s = 2.0, kFirstStretch = 0.3;
-constexpr double kJustBefore_s = 0.2;  // s before the first motion: the kernels reach less far
-constexpr double kMoves = 0.05;        // share of a joint's greatest healthy speed, from which it moves
-constexpr double kLost = 1e3;          // times the least standard deviation: a row without weight
-constexpr double kMostRows = 0.8, kFarLouder = 3.0;  // quantile, and times it: a larger row is no noise
-
 /// Returns the sum of squares of the terms of the model, each a column times its parameter: inertia, gravity
 /// and friction.
 MatrixXd squared_terms(const BalanceRows& rows, const ColumnLayout& layout, const VectorXd& theta) {
@@ -42,23 +35,6 @@ MatrixXd squared_terms(const BalanceRows& rows, const ColumnLayout& layout, cons
   for (int j = 0; j < rows.joints(); ++j)
     out.col(j) = (rows.column[j].leftCols(rigid) * theta.head(rigid).asDiagonal()).rowwise().squaredNorm();
   return out;
-}
-
-/// Returns the size beyond which a row after a change belongs to a fault and is no noise: far above most rows
-/// of the log's motion.
-double largest_noise(const Eigen::Ref<const VectorXd>& rows, double usual) {
-  const VectorXd size = rows.cwiseAbs();
-  const double most = upper_quantile({size.begin(), size.end()}, kMostRows);
-  return kFarLouder * std::max(usual, std::isnan(most) ? 0.0 : most);
-}
-
-/// Returns when any joint first moves; the time of the first row if none does.
-double first_motion_s(const LogFit& fit) {
-  const VectorXd& top = fit.model().top_speed;
-  for (int k = 0; k < fit.count(); ++k)
-    if ((fit.rows().dq.row(k).transpose().cwiseAbs().array() > kMoves * top.array()).any())
-      return fit.time_s()[k];
-  return fit.time_s()[0];
 }
 
 /// Returns the white noise of a log over that of the healthy logs, by joint.
@@ -81,23 +57,6 @@ MatrixXd row_deviation(const BalanceRows& rows, const BalanceModel& model, const
   return (noise.array().square() + stop.array().square() + kModelShare * kModelShare * terms.array()).sqrt();
 }
 
-/// Estimates the noise of a log from its calm_rows(), for each joint for which it exceeds that of the healthy
-/// logs: a robot may have what no healthy log had, such as friction that depends on load, and residuals from
-/// the first row on are no evidence for a fault that begins later.
-RowNoise own_noise(const LogFit& fit) {
-  const CalmRows calm = calm_rows(fit);
-  RowNoise out = fit.model().noise;
-  for (int j = 0; j < fit.joints(); ++j) {
-    JointNoise& noise = out.joint[j];
-    const VectorXd usual = autocovariance(noise);
-    const VectorXd scaled = calm.torque.col(j).cwiseQuotient(fit.std().col(j).head(calm.torque.rows()));
-    const double count = kRowsOfHealthyLogs + static_cast<double>(calm.counts.col(j).count());
-    const VectorXd own = (kRowsOfHealthyLogs * usual + lag_products(scaled, usual.size() - 1)) / count;
-    if (own[0] > usual[0]) noise = with_autocovariance(std::move(noise), own);
-  }
-  return out;
-}
-
 /// Returns the column of the remaining error of a false reading that was corrected.
 FaultColumns reading_column(const LogFit& fit, const FaultClaim& claim) {
   const double doubt = kCorrectedStd * std::abs(claim.size[0]);
@@ -106,33 +65,6 @@ FaultColumns reading_column(const LogFit& fit, const FaultClaim& claim) {
 }
 
 }  // namespace
-
-CalmRows calm_rows(const LogFit& fit) {
-  const Change change = first_change(fit);
-  const Stacked torque = torque_without_piece(fit) - fit.day_torque(change.day);
-  const std::vector<bool> near = near_change(fit.first_path(), kRowsOfChange);
-  const double motion_s = first_motion_s(fit),
-               first_s = change.onset_s > motion_s - kJustBefore_s ? motion_s : fit.time_s()[0],
-               length_s = fit.time_s()[fit.count() - 1] - first_s;
-  const double until_s = std::max(change.onset_s - fit.model().setting.kernel_s,
-                                  first_s + std::min(kFirstStretch_s, kFirstStretch * length_s));
-  const int rows = fit.first_row(until_s), moving = std::min(rows, fit.first_row(first_s)),
-            changed = fit.first_row(change.onset_s);
-  CalmRows out{MatrixXd(rows, fit.joints()), JointMask(rows, fit.joints()), change.day};
-  for (int j = 0; j < fit.joints(); ++j) {
-    const VectorXd std = fit.std().col(j);
-    out.torque.col(j) = torque.segment(j * fit.count(), rows);
-    const VectorXd scaled = out.torque.col(j).cwiseQuotient(std.head(rows));
-    const double usual = std::sqrt(autocovariance(fit.model().noise.joint[j])[0]),
-                 loudest = largest_noise(scaled.tail(rows - moving), usual);
-    for (int k = 0; k < rows; ++k) {
-      const bool is_fault = k >= changed && std::abs(scaled[k]) > loudest;
-      out.counts(k, j) = !is_fault && std[k] < kLost * std.minCoeff() && (near.empty() || !near[k]);
-      if (!out.counts(k, j)) out.torque(k, j) = 0.0;
-    }
-  }
-  return out;
-}
 
 Stacked residual_without(const LogFit& fit, FaultClaim claim, double size) {
   claim.size = VectorXd::Constant(1, size);

@@ -160,14 +160,6 @@ class LogFit {
   mutable std::vector<std::pair<int, Eigen::VectorXd>> before_;
 };
 
-/// Rows of a log before any change (first_change()), from the first one on.
-struct CalmRows {
-  Eigen::MatrixXd torque;  ///< rows x joints: residual beside the effects of the day; 0 if it does not count
-  JointMask counts;        ///< rows x joints: not lost, not silent, not near a change of the work piece
-  Eigen::VectorXd day;     ///< these effects
-};
-CalmRows calm_rows(const LogFit& fit);
-
 /// For each joint: the number of rows between onset and end of a claim that have weight in an explanation,
 /// and the mean square of their whitened residuals; 1 without such rows.
 struct ResidualWithin {

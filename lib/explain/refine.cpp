@@ -35,7 +35,7 @@ bool can_move(FaultKind kind) { return kind != FaultKind::stuck_encoder && kind 
 FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypotheses& bench) {
   const LogFit& fit = bench.fit;
   const double row_s = fit.model().setting.row_s();
-  const double earliest = fit.time_s()[std::min(first_onset_row(fit), fit.count() - 1)],
+  const double earliest = fit.time_s()[std::min(first_onset_row(fit, best.kind), fit.count() - 1)],
                latest = fit.time_s()[std::max(0, fit.count() - 3)];
   const bool passes = best.kind == FaultKind::collision;
   const double shortest = passes ? row_s : kLeastStay_s, longest = passes ? kLongestBlow_s : kNeverEnds;

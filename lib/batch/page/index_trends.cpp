@@ -9,7 +9,7 @@
 #include "lib/batch/page/index_page.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/core/text.hpp"
-#include "lib/explain/day_effects.hpp"
+#include "lib/explain/day/day_effects.hpp"
 #include "lib/report/plot/line_plot.hpp"
 #include "lib/wear/robot_wear.hpp"
 

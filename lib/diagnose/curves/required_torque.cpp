@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "lib/explain/day_effects.hpp"
+#include "lib/explain/day/day_effects.hpp"
 #include "lib/identify/motion/log_survey.hpp"
 #include "lib/identify/motion/raw_stretch.hpp"
 #include "lib/robot/dynamics.hpp"

@@ -5,7 +5,7 @@
 
 #include "lib/classify/fault_criterion.hpp"
 #include "lib/diagnose/diagnosis.hpp"
-#include "lib/explain/day_effects.hpp"
+#include "lib/explain/day/day_effects.hpp"
 #include "lib/explain/decide_log.hpp"
 #include "lib/explain/signal_stretch.hpp"
 #include "lib/fault/fault_kind.hpp"

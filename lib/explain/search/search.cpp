@@ -93,7 +93,7 @@ std::vector<Candidate> search_standstill(const LogFit& fit, int j) {
   while (since > 0 && std::abs(stands.place[since - 1] - rest) <= stands.tolerance) --since;
   std::vector<Candidate> out;
   for (const int before : {0, 2, 5}) {
-    const int row = std::clamp(since - before, first_onset_row(fit), fit.count() - kTail);
+    const int row = std::clamp(since - before, first_onset_row(fit, FaultKind::locked), fit.count() - kTail);
     out.push_back({{FaultKind::locked, Joint::at(j), fit.time_s()[row]}});
   }
   return out;

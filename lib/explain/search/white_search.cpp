@@ -76,7 +76,8 @@ VectorXd gains_of(const OnsetEquations& equations, const VectorXd& variance, int
 
 }  // namespace
 
-int first_onset_row(const LogFit& fit) {
+int first_onset_row(const LogFit& fit, FaultKind kind) {
+  if (kind == FaultKind::collision) return 0;
   return std::max(kLeadRows, static_cast<int>(kLead_s / fit.model().setting.row_s()));
 }
 
@@ -148,7 +149,7 @@ std::vector<VectorXd> onset_gains(const WhiteSearch& s, const FaultColumns& colu
 
 std::vector<Candidate> peaks(const LogFit& fit, const FaultClaim& claim, VectorXd score, int most) {
   const double row_s = fit.model().setting.row_s();
-  const int first = first_onset_row(fit), last = fit.count() - kTail;
+  const int first = first_onset_row(fit, claim.kind), last = fit.count() - kTail;
   const int apart = std::max(1, static_cast<int>(kApart_s / row_s));
   for (int k = 0; k < fit.count(); ++k)
     if (k < first || k >= last || !(score[k] > kNothing)) score[k] = kNothing;

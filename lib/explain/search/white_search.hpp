@@ -9,8 +9,9 @@ namespace faultline {
 
 inline constexpr int kTail = 2;  ///< rows at the end, in which none is searched
 
-/// Returns the first row at which an onset is searched.
-int first_onset_row(const LogFit& fit);
+/// Returns the first row at which an onset is searched. A push may begin before the log, since the rows after
+/// it give the effects of the day.
+int first_onset_row(const LogFit& fit, FaultKind kind);
 
 /// A claim to judge; its size, if any, is the initial one of a sensor fault.
 struct Candidate : FaultClaim {

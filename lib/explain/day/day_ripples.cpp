@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/day_ripples.hpp"
+#include "lib/explain/day/day_ripples.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lib/balance/ripples.hpp"
+#include "lib/explain/day/own_noise.hpp"
 #include "lib/explain/free_form.hpp"
 
 namespace faultline {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "lib/explain/day_effects.hpp"
+#include "lib/explain/day/day_effects.hpp"
 #include "lib/explain/log_fit.hpp"
 
 namespace faultline {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Torque ripples that a log has and the healthy logs did not have, of a robot in closed form.
-#include "lib/explain/day_ripples.hpp"
+#include "lib/explain/day/day_ripples.hpp"
 
 #include <gtest/gtest.h>
 
