@@ -112,7 +112,10 @@ std::vector<ExplainedFault> pushes_instead(const LogFit& fit, const LogExplanati
   return several_pushes(fit, limits, kMostFaults, needed);
 }
 
-NextFault next_fault(const GivenLog& given, const std::vector<FaultClaim>& known) {
+/// Whether several pushes are compared with the best fault: beside a first fault of several, they are not.
+enum class Pushes { compared, left_out };
+
+NextFault next_fault(const GivenLog& given, const std::vector<FaultClaim>& known, Pushes pushes) {
   const EvidenceLimits& limits = given.limits;
   // The halt of a known lock raises the noise of the other joints and makes the search less exact.
   const bool is_exact = std::ranges::none_of(known, &silences, &FaultClaim::kind);
@@ -128,7 +131,8 @@ NextFault next_fault(const GivenLog& given, const std::vector<FaultClaim>& known
            });
   });
   NextFault out{.named = std::move(named), .score = score_of(e, limits)};
-  if (!out.named.empty()) out.pushes = pushes_instead(fit, e, out.named.front(), limits);
+  if (pushes == Pushes::compared && !out.named.empty())
+    out.pushes = pushes_instead(fit, e, out.named.front(), limits);
   for (const ExplainedFault& fault : out.named)
     out.spans.push_back(fault_spans(fit, fault.claim, e.free_form));
   if (out.named.empty() && known.empty())
@@ -241,7 +245,7 @@ std::vector<ExplainedFault> best_faults(const GivenLog& given, const std::vector
     while (together.size() < kMostTogether) {
       more.push_back(together.back().claim);
       shrinking += together.back().shrinking;
-      const NextFault another = next_fault(given, more);
+      const NextFault another = next_fault(given, more, Pushes::left_out);
       if (another.named.empty()) break;
       // Beside a part of a fault that comes and goes the other parts are easier to find.
       repeated = repeated_fault(given, known, another, another.named.size());
@@ -298,7 +302,7 @@ ExplainedLog explained_beside(const GivenLog& given, const std::vector<FaultClai
   EvidenceScore score;  // what a known fault leaves is no alarm: the score is that of a log without one
   while (faults.size() < kMostFaults) {
     const std::vector<FaultClaim> known = claims_but(faults, faults.size(), before);
-    NextFault next = next_fault(given, known);
+    NextFault next = next_fault(given, known, Pushes::compared);
     out = std::move(next.rest);
     if (known.empty()) score = next.score;
     if (next.named.empty()) break;

@@ -50,7 +50,7 @@ std::vector<ExplainedFault> several_pushes(const LogFit& fit, const EvidenceLimi
     const auto further = static_cast<double>(most - out.size());  // a later push seldom explains more
     if (together + further * out.back().evidence < needed) return {};
   }
-  const bool explains = together > needed && !has_large_misfit(out.back());
+  const bool explains = !out.empty() && together > needed && !has_large_misfit(out.back());
   return explains ? out : std::vector<ExplainedFault>{};
 }
 
