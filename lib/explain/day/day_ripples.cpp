@@ -17,13 +17,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostRounds = 5;          // each refines the ripples found so far, and may find more
-constexpr double kPhaseStep = 0.02;     // rad at an end of the joint's range: of a difference quotient
-constexpr double kFarResidual = 3.0;    // standard deviations: a later row has half of its weight
-constexpr double kNoRipple = 3.0;       // times the rms of the calm rows: a larger residual is no ripple
-constexpr double kWithoutWeight = 1e3;  // times the least standard deviation of the rows
-constexpr double kSamePhase = 0.01;     // rad: a ripple that moves less is settled
-constexpr double kMostly = 0.5;         // least share of the squared residual that a ripple explains
+constexpr int kMostRounds = 5;        // each refines the ripples found so far, and may find more
+constexpr double kPhaseStep = 0.02;   // rad at an end of the joint's range: of a difference quotient
+constexpr double kFarResidual = 3.0;  // standard deviations: a later row has half of its weight
+constexpr double kNoRipple = 3.0;     // times the rms of the calm rows: a larger residual is no ripple
+constexpr double kSamePhase = 0.01;   // rad: a ripple that moves less is settled
+constexpr double kMostly = 0.5;       // least share of the squared residual that a ripple explains
 constexpr double kLeastWaves = 20.0, kLeastWavesOfSlide = 10.0;  // radians over the range of the joint
 constexpr Eigen::Index kFewestCalm = 60;  // calm rows: with fewer a ripple resembles other errors
 constexpr int kRefinements = 12;          // of the rate: they leave .3 % of a step of the search
@@ -41,12 +40,12 @@ struct RippledJoint {
 
 RippledJoint rippled_joint(const LogFit& fit, const CalmRows& calm, int j, double most) {
   const Eigen::Index rows = fit.count(), calm_rows = calm.torque.rows();
-  const VectorXd std = fit.std().col(j);
+  const JointMask has_weight = rows_with_weight(fit);
   RippledJoint out{(torque_without_piece(fit) - fit.day_torque(calm.day)).segment(j * rows, rows),
                    calm.counts.col(j).cast<double>()};
   out.counts.conservativeResize(rows);
   for (Eigen::Index k = calm_rows; k < rows; ++k)
-    out.counts[k] = std::abs(out.torque[k]) < most && std[k] < kWithoutWeight * std.minCoeff() ? 1.0 : 0.0;
+    out.counts[k] = std::abs(out.torque[k]) < most && has_weight(k, j) ? 1.0 : 0.0;
   return out;
 }
 

@@ -46,12 +46,9 @@ double first_motion_s(const LogFit& fit) {
 /// Returns whether rows have weight and no change of the work piece is near: rows x joints.
 JointMask rows_of_noise(const LogFit& fit) {
   const std::vector<bool> near = near_change(fit.first_path(), kRowsOfChange);
-  JointMask out(fit.count(), fit.joints());
-  for (int j = 0; j < fit.joints(); ++j) {
-    const double least = fit.std().col(j).minCoeff();
-    for (int k = 0; k < fit.count(); ++k)
-      out(k, j) = fit.std()(k, j) < kLost * least && (near.empty() || !near[k]);
-  }
+  JointMask out = rows_with_weight(fit);
+  for (int k = 0; k < static_cast<int>(near.size()); ++k)
+    if (near[k]) out.row(k).setConstant(false);
   return out;
 }
 
@@ -104,6 +101,13 @@ VectorXd covariance_of(const CalmRows& calm, const LogFit& fit, int j) {
 }
 
 }  // namespace
+
+JointMask rows_with_weight(const LogFit& fit) {
+  JointMask out(fit.count(), fit.joints());
+  for (int j = 0; j < fit.joints(); ++j)
+    out.col(j) = fit.std().col(j).array() < kLost * fit.std().col(j).minCoeff();
+  return out;
+}
 
 CalmRows calm_rows(const LogFit& fit) {
   const Change change = first_change(fit);

@@ -15,6 +15,10 @@ struct CalmRows {
   Eigen::VectorXd day;     ///< these effects
 };
 
+/// Returns whether rows have weight, rows x joints: their standard deviation is not far above the least one
+/// of their joint, as that of lost and of silent rows is.
+JointMask rows_with_weight(const LogFit& fit);
+
 /// Returns the rows of a log before any change (first_change()).
 CalmRows calm_rows(const LogFit& fit);
 
