@@ -20,7 +20,7 @@ constexpr double kRare = 50.0;       // times the median square: larger squares 
 constexpr double kLeastShare = 0.1;  // least constant part, as a share of the median square
 constexpr double kRidge = 1e-4;      // of the variance, on the diagonal of the autocorrelation
 
-constexpr int kTerms = 5;  // parts of a row's variance: constant, torque, rest, speed, timing
+constexpr int kTerms = 6;  // parts of a row's variance: constant, torque, rest, speed, timing, others' speed
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 using TermMatrix = Eigen::Matrix<double, kTerms, kTerms>;
 constexpr double kLeastTiming = 0.01;  // samples^2: the time of a step is uncertain by a tenth of a sample
@@ -29,7 +29,7 @@ Terms variance_terms(const BalanceRows& rows, const RowSetting& setting, int k, 
   const double still = elementary::tanh(rows.dq(k, j) / setting.friction_width[j]);
   Terms out;
   out << 1.0, rows.torque(k, j) * rows.torque(k, j), 1.0 - still * still, rows.dq(k, j) * rows.dq(k, j),
-      rows.step_square(k, j);
+      rows.step_square(k, j), rows.dq.row(k).squaredNorm() - rows.dq(k, j) * rows.dq(k, j);
   return out;
 }
 
@@ -56,6 +56,39 @@ bool counts(const LogResidual& log, int k, int j) {
   return !log.rows->lost[k] && !log.rows->rests(k, j) && (log.not_counted.empty() || !log.not_counted[k]);
 }
 
+/// A row of one joint whose squared residual says how large the noise is.
+struct SquaredRow {
+  const LogResidual* log = nullptr;
+  int row = 0;
+  double residual = 0.0;    ///< squared
+  double innovation = 0.0;  ///< squared: of what the rows before it, by a filter, do not predict
+};
+
+/// Returns the rows of joint `j` that have weight, and that many rows before them as the filter has terms.
+std::vector<SquaredRow> squared_rows(const std::vector<LogResidual>& logs, const VectorXd& filter, int j) {
+  std::vector<SquaredRow> out;
+  const Eigen::Index order = std::max<Eigen::Index>(filter.size() - 1, 0);
+  for (const LogResidual& log : logs) {
+    Eigen::Index known = 0;
+    for (int k = 0; k < log.rows->rows(); ++k) {
+      known = counts(log, k, j) ? known + 1 : 0;
+      if (known <= order) continue;
+      double innovation = log.torque(k, j);
+      for (Eigen::Index lag = 1; lag <= order; ++lag) innovation += filter[lag] * log.torque(k - lag, j);
+      out.push_back({&log, k, Eigen::numext::abs2(log.torque(k, j)), Eigen::numext::abs2(innovation)});
+    }
+  }
+  return out;
+}
+
+/// Returns the factor by which variances of innovations become variances of residuals on average.
+double scale_of(const std::vector<SquaredRow>& rows, const Terms& share, const RowSetting& setting, int j) {
+  double out = 0.0;
+  for (const SquaredRow& row : rows)
+    out += row.residual / share.dot(variance_terms(*row.log->rows, setting, row.row, j));
+  return out / static_cast<double>(rows.size());
+}
+
 }  // namespace
 
 MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, const RowNoise& noise,
@@ -64,7 +97,7 @@ MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, const RowNo
   for (int j = 0; j < rows.joints(); ++j) {
     const JointNoise& n = noise.joint[j];
     Terms share;
-    share << n.base * loudness[j] * loudness[j], n.torque, n.rest, n.speed, n.timing;
+    share << n.base * loudness[j] * loudness[j], n.torque, n.rest, n.speed, n.timing, n.others;
     for (int k = 0; k < rows.rows(); ++k) {
       out(k, j) = std::sqrt(share.dot(variance_terms(rows, setting, k, j)));
       if (rows.lost[k] || rows.rests(k, j)) out(k, j) = kNoWeight;
@@ -146,30 +179,29 @@ RowNoise with_variance(const std::vector<LogResidual>& logs, const RowSetting& s
   const int joints = setting.joints();
   noise.joint.resize(joints);
   for (int j = 0; j < joints; ++j) {
+    const std::vector<SquaredRow> rows = squared_rows(logs, noise.joint[j].filter, j);
+    if (rows.empty()) continue;
     std::vector<double> squares;
-    for (const LogResidual& log : logs)
-      for (int k = 0; k < log.rows->rows(); ++k)
-        if (counts(log, k, j)) squares.push_back(log.torque(k, j) * log.torque(k, j));
-    if (squares.empty()) continue;
-    const double median = upper_median(squares);
+    for (const SquaredRow& row : rows) squares.push_back(row.innovation);
+    const double median = upper_median(std::move(squares));
     TermMatrix a = TermMatrix::Zero();
     Terms b = Terms::Zero();
-    for (const LogResidual& log : logs)
-      for (int k = 0; k < log.rows->rows(); ++k) {
-        if (!counts(log, k, j)) continue;
-        const Terms x = variance_terms(*log.rows, setting, k, j);
-        const double y = std::min(log.torque(k, j) * log.torque(k, j), kRare * median);
-        const double weight = 1.0 / Eigen::numext::abs2(2.25 * median);
-        a += weight * x * x.transpose();
-        b += weight * y * x;
-      }
-    const Terms share = non_negative(a, b);
+    for (const SquaredRow& row : rows) {
+      const Terms x = variance_terms(*row.log->rows, setting, row.row, j);
+      const double weight = 1.0 / Eigen::numext::abs2(2.25 * median);
+      a += weight * x * x.transpose();
+      b += weight * std::min(row.innovation, kRare * median) * x;
+    }
+    Terms share = non_negative(a, b);
+    share[0] = std::max(share[0], kLeastShare * median);
+    if (noise.joint[j].filter.size() > 1) share *= scale_of(rows, share, setting, j);
     JointNoise& out = noise.joint[j];
-    out.base = std::max(share[0], kLeastShare * median);
+    out.base = share[0];
     out.torque = share[1];
     out.rest = share[2];
     out.speed = share[3];
     out.timing = std::max(share[4], kLeastTiming);
+    out.others = share[5];
   }
   return noise;
 }

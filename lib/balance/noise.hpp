@@ -11,10 +11,10 @@
 namespace faultline {
 
 /// Variance of one joint's rows (equation (3) of docs/how-it-works.md): base + torque tau^2 + rest (1 -
-/// tanh^2(dq / width)) + speed dq^2 + timing step^2, where step^2 is BalanceRows::step_square: the error of
-/// torque steps that act a fraction of a sample earlier or later.
+/// tanh^2(dq / width)) + speed dq^2 + timing step^2 + others (sum of dq^2 of the other joints), where step^2
+/// is BalanceRows::step_square: the error of torque steps that act a fraction of a sample earlier or later.
 struct JointNoise {
-  double base = 0.0, torque = 0.0, rest = 0.0, speed = 0.0, timing = 0.0;
+  double base = 0.0, torque = 0.0, rest = 0.0, speed = 0.0, timing = 0.0, others = 0.0;
   Eigen::VectorXd filter;   ///< autoregression of the rows over their standard deviation: 1, -a1, -a2, ..
   double innovation = 1.0;  ///< standard deviation of the filtered rows
 
@@ -78,8 +78,10 @@ struct LogResidual {
   std::vector<bool> not_counted;  ///< by row: excluded, near a change of the work piece
 };
 
-/// Returns `noise` with the variances estimated by non-negative least squares of the squared residuals, of
-/// which rare large ones are clipped.
+/// Returns `noise` with the variances estimated by non-negative least squares of the squared innovations, of
+/// which rare large ones are clipped: of what the filter that `noise` has for a joint does not predict from
+/// the rows before (the residuals themselves without a filter). What wanders slowly is predicted, so that a
+/// row is as loud as what is new in it; the variances are scaled to those of the residuals on average.
 RowNoise with_variance(const std::vector<LogResidual>& logs, const RowSetting& setting, RowNoise noise);
 /// Returns `noise` with the autoregression of order `order` of the residuals over their standard deviation
 /// (Yule and Walker).

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/fault/fault_catalogue.hpp"
@@ -17,7 +16,6 @@ namespace {
 
 constexpr double kSizeFades = 20.0;  // nats; a label's size is weighted by exp(-deficit / this)
 constexpr double kNotJudged = -1e3;  // nats of a label without a judged hypothesis
-constexpr double kMeanOfHalfSine = 2.0 / std::numbers::pi;
 constexpr double kShortest_s = 1e-3, kLongest_s = 3.0;  // durations are bounded to this range
 
 // Conversions between numbers and features: deficit of evidence to the most likely label in nats, and the
@@ -88,10 +86,10 @@ std::array<double, kMostSizes> sizes_of(const FaultClaim& claim, double end_s, i
 }
 
 double impulse_of(const FaultClaim& claim, int j, int joints) {
-  if (claim.size.size() < joints) return 0.0;
-  const double lasts_s = claim.end_s - claim.onset_s;
-  const double swelling = claim.size.size() == 2 * joints ? claim.size[joints + j] : 0.0;
-  return lasts_s * (claim.size[j] + kMeanOfHalfSine * swelling);
+  double mean = 0.0;
+  for (Eigen::Index form = 0; (form + 1) * joints <= claim.size.size(); ++form)
+    mean += kMeanOfForceForm[static_cast<std::size_t>(form)] * claim.size[form * joints + j];
+  return mean == 0.0 ? 0.0 : mean * (claim.end_s - claim.onset_s);
 }
 
 std::vector<LabelEvidence> evidence_by_label(const ExplainedFault& fault, double end_s,

@@ -50,17 +50,20 @@ EvidenceTrace trace_of(const LogExplanation& e, const FaultLabel& fault, const E
 
 EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy) {
   EvidenceLimits out;
-  double most = kLeastEvidence;
+  double most = kLeastEvidence, most_of_a_push = kLeastEvidence;
   double& unknown = out.nats[static_cast<std::size_t>(FaultKind::unknown)];
   for (const LogExplanation& e : healthy) {
     unknown = std::max(unknown, kBeyondHealthy * e.free_gain);
+    most_of_a_push = std::max(most_of_a_push, e.most_of_a_push);
     for (const FaultHypothesis& h : e.best) {
       double& nats = out.nats[static_cast<std::size_t>(h.kind)];
       nats = std::max(nats, kBeyondHealthy * h.gain);
       most = std::max(most, h.gain);
     }
   }
-  for (double& nats : out.nats) nats = std::max(nats, most);
+  for (std::size_t kind = 0; kind < out.nats.size(); ++kind)
+    out.nats[kind] = std::max(out.nats[kind],
+                              static_cast<FaultKind>(kind) == FaultKind::collision ? most_of_a_push : most);
   return out;
 }
 

@@ -25,7 +25,8 @@ struct EvidenceLimits {
 
 /// Returns limits from healthy logs (equation (8) of docs/how-it-works.md), each explained by a model that
 /// was learned from the others: three times the largest evidence for the kind, at least the largest evidence
-/// for any kind, at least kLeastEvidence. For an unknown fault, the evidence of the free form counts, too.
+/// for any kind (for a collision, in rows that one push can reach), at least kLeastEvidence. For an unknown
+/// fault, the evidence of the free form counts, too.
 EvidenceLimits evidence_limits(const std::vector<LogExplanation>& healthy);
 
 inline constexpr double kLeastLoss = 0.08;  ///< share of the torque: less may be the gain of another day

@@ -174,6 +174,25 @@ EvidenceCourse course_of(const LogFit& fit, double onset_s, double at_onset, con
   return out;
 }
 
+/// Returns the largest evidence that a hypothesis has in the rows of a stretch of kLongestBlow_s, nats. A row
+/// without weight counts as noise.
+double most_of_a_push(const LogFit& fit, const FaultHypothesis& h) {
+  const Stacked &without = fit.healthy().left, &with = h.fit.left;
+  std::vector<double> until = {0.0};  // nats of the rows before each row
+  double out = 0.0;
+  for (int k = 0, begin = 0; k < fit.count(); ++k) {
+    double nats = 0.0;
+    for (int j = 0; j < fit.joints(); ++j) {
+      const double a = without[j * fit.count() + k], b = with[j * fit.count() + k];
+      if (!std::isnan(a)) nats += 0.5 * (a * a - (std::isnan(b) ? 1.0 : b * b));
+    }
+    until.push_back(until.back() + nats);
+    while (fit.time_s()[k] - fit.time_s()[begin] > kLongestBlow_s) ++begin;
+    out = std::max(out, until.back() - until[static_cast<std::size_t>(begin)]);
+  }
+  return out;
+}
+
 /// Returns the kinds that resemble a fault in the rows of its joint: they are judged at its onset and end. A
 /// joint at rest is locked, or its encoder is stuck. A short disturbance of the torque is a push, a moment
 /// without torque (a joint that falls to its end stop), or an offset of the torque.
@@ -260,6 +279,8 @@ LogExplanation explain_log(const LogFit& fit, double least_evidence) {
     }
     out.best = best_of_each(bench.judged);
   }
+  for (const FaultHypothesis& h : out.best)
+    out.most_of_a_push = std::max(out.most_of_a_push, std::min(h.gain, most_of_a_push(fit, h)));
   return with_evidence(fit, std::move(out));
 }
 

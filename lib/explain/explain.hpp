@@ -20,6 +20,9 @@ struct LogExplanation {
   // infinite misfit.
   FreeForm free_form;
   double free_gain = 0.0;  ///< nats by which the free form explains the log better than the healthy robot
+  /// Largest evidence of any hypothesis in the rows of one stretch as long as the longest push, nats: a push
+  /// can explain no more of what a log leaves over. At coarse rates, that in all rows.
+  double most_of_a_push = 0.0;
   EvidenceCourse free_course{};  ///< of the free form, from its onset on: excess of its residuals over noise
 };
 

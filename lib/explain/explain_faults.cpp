@@ -202,8 +202,7 @@ std::vector<ExplainedFault> jointly(const GivenLog& given, const std::vector<Fau
   std::ranges::stable_sort(faults, {}, &ExplainedFault::evidence);
   const RowNoise noise = LogFit(given.log, given.model, claims_but(faults, faults.size(), before)).noise();
   faults = judged_beside(given, before, noise, Times::as_claimed, std::move(faults));
-  const auto poor = std::ranges::count_if(faults, &has_large_misfit);
-  if (poor == 0 || poor == static_cast<std::ptrdiff_t>(faults.size())) return faults;
+  if (std::ranges::none_of(faults, &has_large_misfit)) return faults;
   return judged_beside(given, before, noise, Times::refined, std::move(faults));
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <limits>
+#include <numbers>
 
 #include "lib/core/joint.hpp"
 #include "lib/fault/fault_kind.hpp"
@@ -11,6 +13,12 @@ namespace faultline {
 
 /// End of a fault that lasts to the end of the log, s.
 inline constexpr double kNeverEnds = std::numeric_limits<double>::infinity();
+
+/// Means over time of the forms that the force of a collision has: constant, and sines of one, two and three
+/// half waves from its onset to its end. Its sizes are those of the first form on each joint, then of the
+/// second, ..
+inline constexpr std::array<double, 4> kMeanOfForceForm = {1.0, 2.0 * std::numbers::inv_pi, 0.0,
+                                                           2.0 / 3.0 * std::numbers::inv_pi};
 
 /// Time in which a fault is present.
 struct FaultSpan {

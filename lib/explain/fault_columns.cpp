@@ -128,15 +128,19 @@ const LinearFault* linear_of(const std::vector<LinearFault>& faults, const Fault
 FaultColumns force_columns(const BalanceRows& rows, const RowSetting& setting, double onset_s, double end_s) {
   const int n = rows.joints();
   const VectorXd lasts = soft_step(rows, setting, onset_s) - soft_step(rows, setting, end_s);
-  const VectorXd swells = rows.time_s.unaryExpr([&](double t) {
-    const double share = (t - onset_s) / (end_s - onset_s);
-    return share > 0.0 && share < 1.0 ? elementary::sin(std::numbers::pi * share) : 0.0;
-  });
-  FaultColumns out{StackedColumns::Zero(rows.rows() * n, 2 * n), VectorXd(2 * n)};
-  for (int j = 0; j < n; ++j) {
-    out.column.col(j).segment(j * rows.rows(), rows.rows()) = -lasts;  // the force relieves the drive
-    out.column.col(n + j).segment(j * rows.rows(), rows.rows()) = -swells;
-    out.variance[j] = out.variance[n + j] = rows.torque.col(j).squaredNorm() / rows.rows();
+  const VectorXd share = (rows.time_s.array() - onset_s) / (end_s - onset_s);
+  const int forms = static_cast<int>(kMeanOfForceForm.size());
+  FaultColumns out{StackedColumns::Zero(rows.rows() * n, forms * n), VectorXd(forms * n)};
+  for (int form = 0; form < forms; ++form) {
+    const VectorXd force = form == 0 ? lasts : VectorXd(share.unaryExpr([form](double s) {
+      return s > 0.0 && s < 1.0 ? elementary::sin(form * std::numbers::pi * s) : 0.0;
+    }));
+    for (int j = 0; j < n; ++j) {
+      const int c = form * n + j;
+      out.column.col(c).segment(j * rows.rows(), rows.rows()) = -force;  // it relieves the drive
+      out.variance[c] =
+          rows.torque.col(j).squaredNorm() / rows.rows() / Eigen::numext::abs2(std::max(form, 1));
+    }
   }
   return out;
 }

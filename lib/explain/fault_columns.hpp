@@ -41,8 +41,8 @@ std::vector<LinearFault> linear_faults(const BalanceRows& rows, const BalanceMod
 /// Returns the linear fault of a claim; null if its kind has none.
 const LinearFault* linear_of(const std::vector<LinearFault>& faults, const FaultClaim& claim);
 
-/// Returns the columns of a collision: an unknown force on each joint that is constant from onset to end,
-/// then one on each joint that rises and falls in between (half a sine).
+/// Returns the columns of a collision: an unknown force on each joint from onset to end, of each form of
+/// kMeanOfForceForm in turn.
 FaultColumns force_columns(const BalanceRows& rows, const RowSetting& setting, double onset_s, double end_s);
 
 /// Switches columns on at the onset and off at the end (equation (9) of docs/how-it-works.md), smoothed as

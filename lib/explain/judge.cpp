@@ -222,32 +222,48 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
   return out;
 }
 
-/// Returns the columns of a force on one joint (from 0) among those of a force on all joints.
-FaultColumns of_one_joint(const FaultColumns& force, int j) {
-  const std::vector<int> at = {j, static_cast<int>(force.sizes()) / 2 + j};
-  return {StackedColumns(force.column(Eigen::all, at)), force.variance(at)};
+constexpr int kPlainForms = 2;  // of kMeanOfForceForm: constant, and half a sine
+constexpr int kForms = static_cast<int>(kMeanOfForceForm.size());
+
+/// Returns the indices of the first `forms` forms of a force on the joints from `first` (from 0) on, `count`
+/// of them, among those of a force on all `joints`.
+std::vector<int> forms_on(int first, int count, int forms, int joints) {
+  std::vector<int> out;
+  for (int form = 0; form < forms; ++form)
+    for (int j = first; j < first + count; ++j) out.push_back(form * joints + j);
+  return out;
 }
 
 /// Judges a force from onset to end on all joints, and on the joint alone with the greatest force for its
-/// torque, at which it is reported. The likelier of the two.
+/// torque, at which it is reported: of plain form, and of all forms. The likeliest counts, but one of all
+/// forms only if it explains more than a plain one by the share that any fault may miss its form.
 FaultHypothesis judge_force(const LogFit& fit, FaultClaim claim) {
   const FaultColumns columns = force_columns(fit.rows(), fit.model().setting, claim.onset_s, claim.end_s);
-  const auto explained_by = [&](const FaultColumns& force) {
+  const auto explained_by = [&](const std::vector<int>& some) {
     std::vector<VectorXd> starts;
-    if (fit.has_piece()) starts.push_back(VectorXd::Zero(force.sizes()));
-    return fit.explain_with_piece(fit.residual(), force, starts, claim.onset_s);
+    if (fit.has_piece()) starts.push_back(VectorXd::Zero(std::ssize(some)));
+    const FaultColumns force{StackedColumns(columns.column(Eigen::all, some)), columns.variance(some)};
+    Explanation e = fit.explain_with_piece(fit.residual(), force, starts, claim.onset_s);
+    VectorXd size = VectorXd::Zero(columns.sizes());
+    size(some) = e.size;
+    e.size = std::move(size);
+    return e;
   };
-  Explanation all = explained_by(columns);
   const int n = fit.joints();
+  const auto likelier = [](Explanation a, Explanation b) {
+    return std::move(b.log_likelihood > a.log_likelihood ? b : a);
+  };
+  Explanation plain = explained_by(forms_on(0, n, kPlainForms, n));
   int j = 0;
-  (all.size.head(n) + all.size.tail(n)).cwiseAbs2().cwiseQuotient(columns.variance.head(n)).maxCoeff(&j);
+  const VectorXd peak = plain.size.head(n) + plain.size.segment(n, n);
+  peak.cwiseAbs2().cwiseQuotient(columns.variance.head(n)).maxCoeff(&j);
   claim.joint = Joint::at(j);
-  Explanation one = explained_by(of_one_joint(columns, j));
-  if (one.log_likelihood <= all.log_likelihood) return hypothesis(fit, claim, std::move(all), 0.0);
-  const Eigen::Vector2d size = one.size;
-  one.size = VectorXd::Zero(2 * n);
-  one.size(std::vector<int>{j, n + j}) = size;
-  return hypothesis(fit, claim, std::move(one), 0.0);
+  plain = likelier(std::move(plain), explained_by(forms_on(j, 1, kPlainForms, n)));
+  Explanation shaped =
+      likelier(explained_by(forms_on(0, n, kForms, n)), explained_by(forms_on(j, 1, kForms, n)));
+  const double usual = std::max(0.0, plain.log_likelihood - fit.healthy().log_likelihood);
+  const bool is_plain = shaped.log_likelihood - plain.log_likelihood <= kFormShare * usual;
+  return hypothesis(fit, claim, is_plain ? std::move(plain) : std::move(shaped), 0.0);
 }
 
 FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {

@@ -195,8 +195,9 @@ void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
   const Eigen::Index effects = effect_variance_.size();
   effect_variance_.conservativeResize(effects + columns.sizes());
   const bool is_compared = claim.onset_s >= log_.start_s || falsifies_position(claim.kind);
+  const VectorXd absent = kNoEffect * columns.variance;  // of a column without a part in the fault
   effect_variance_.tail(columns.sizes()) =
-      is_compared ? columns.variance
+      is_compared ? VectorXd((claim.size.array() == 0.0).select(absent, columns.variance))
                   : VectorXd((kSizeDoubt * claim.size).cwiseAbs2() + 1e-6 * columns.variance);
   effects_.append(columns.column);
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "lib/explain/fault_spans.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/search/search.hpp"
 
@@ -33,6 +34,21 @@ std::optional<ExplainedFault> next_push(const LogFit& fit, const EvidenceLimits&
   return std::move(named.front());
 }
 
+/// Returns the longest time that pushes last without a pause of kLeastStay_s between them, s.
+double longest_together_s(const std::vector<ExplainedFault>& pushes) {
+  std::vector<FaultSpan> spans;
+  for (const ExplainedFault& push : pushes) spans.push_back({push.claim.onset_s, push.claim.end_s});
+  std::ranges::sort(spans, {}, &FaultSpan::onset_s);
+  double out = 0.0;
+  FaultSpan together{0.0, -kNeverEnds};
+  for (const FaultSpan& span : spans) {
+    if (span.onset_s > together.end_s + kLeastStay_s) together = span;
+    together.end_s = std::max(together.end_s, span.end_s);
+    out = std::max(out, together.end_s - together.onset_s);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<ExplainedFault> several_pushes(const LogFit& fit, const EvidenceLimits& limits, std::size_t most,
@@ -50,7 +66,9 @@ std::vector<ExplainedFault> several_pushes(const LogFit& fit, const EvidenceLimi
     const auto further = static_cast<double>(most - out.size());  // a later push seldom explains more
     if (together + further * out.back().evidence < needed) return {};
   }
-  const bool explains = !out.empty() && together > needed && !has_large_misfit(out.back());
+  // Pushes that follow each other without a pause are a longer force, which is another fault.
+  const bool explains = !out.empty() && together > needed && !has_large_misfit(out.back()) &&
+                        longest_together_s(out) <= kLongestBlow_s;
   return explains ? out : std::vector<ExplainedFault>{};
 }
 

@@ -90,6 +90,7 @@ void fields(auto& v, MaybeConst<JointNoise> auto& n) {
   v("rest", n.rest);
   v("speed", n.speed);
   v("timing", n.timing);
+  v("others", n.others);
   v("filter", n.filter);
   v("innovation", n.innovation);
 }

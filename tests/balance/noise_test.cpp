@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <random>
+#include <utility>
 
 namespace faultline {
 namespace {
@@ -118,6 +120,63 @@ TEST(Noise, AValueOfARowReachesOnlyTheNextThreeRowsWithWeight) {
   EXPECT_NE(whitened(13, 0), 0.0);
   EXPECT_TRUE(whitened.bottomRows(kRows - 14).isZero(0.0));
   EXPECT_EQ(white.reach(kRows - 1), kRows);
+}
+
+constexpr int kManyRows = 6000;
+constexpr double kQuiet = 0.02,
+                 kShaken = 0.2;  // N m: of a joint beside one that rests, and beside one that moves
+
+/// Rows of two joints, of which the second one moves at 2 rad/s in every other stretch of 100 rows.
+BalanceRows rows_beside_a_joint_that_moves() {
+  BalanceRows out;
+  out.time_s = VectorXd::LinSpaced(kManyRows, 0.0, 0.03 * kManyRows);
+  out.torque = out.q = out.step_square = MatrixXd::Zero(kManyRows, 2);
+  out.dq = MatrixXd::Zero(kManyRows, 2);
+  for (int k = 0; k < kManyRows; ++k) out.dq(k, 1) = k / 100 % 2 == 0 ? 0.0 : 2.0;
+  out.lost.assign(kManyRows, false);
+  return out;
+}
+
+/// Residuals of joint 1: a level that wanders by 1 N m over some 300 rows, and white noise, ten times as
+/// large while joint 2 moves.
+MatrixXd wandering_and_shaken(const BalanceRows& rows) {
+  std::mt19937 random(3);
+  const auto normal = [&] { return std::normal_distribution<>()(random); };
+  constexpr double kKept = 0.9967;
+  MatrixXd out = MatrixXd::Zero(kManyRows, 2);
+  double level = 0.0;
+  for (int k = 0; k < kManyRows; ++k) {
+    level = kKept * level + std::sqrt(1.0 - kKept * kKept) * normal() * 0.1;
+    out(k, 0) = level + (rows.dq(k, 1) > 0.0 ? kShaken : kQuiet) * normal();
+  }
+  return out;
+}
+
+/// Returns the mean square of the whitened residuals of joint 1 beside the other joint at rest, and in
+/// motion.
+Eigen::Vector2d mean_squares(const BalanceRows& rows, const MatrixXd& residual, const MatrixXd& std,
+                             const RowNoise& noise) {
+  const VectorXd white = Whitener(std.col(0), noise.joint[0])(residual.col(0));
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int k = 0; k < kManyRows; ++k) sum[rows.dq(k, 1) > 0.0] += white[k] * white[k];
+  return sum / (kManyRows / 2);
+}
+
+TEST(Noise, AJointThatAnotherOneShakesIsLoudOnlyWhileThatOneMoves) {
+  const BalanceRows rows = rows_beside_a_joint_that_moves();
+  RowSetting setting;
+  setting.friction_width = VectorXd::Constant(2, 0.05);
+  LogResidual log{&rows, wandering_and_shaken(rows), {}, {}};
+  RowNoise noise;
+  for (int round = 0; round < 3; ++round) {
+    noise = with_variance({log}, setting, std::move(noise));
+    log.std = row_std(rows, setting, noise, VectorXd::Ones(2));
+    noise = with_filter({log}, 3, std::move(noise));
+  }
+  EXPECT_GT(noise.joint[0].others, 0.0);
+  const Eigen::Vector2d square = mean_squares(rows, log.torque, log.std, noise);
+  EXPECT_NEAR(square[0], 1.0, 0.5) << "beside a joint that rests";
+  EXPECT_NEAR(square[1], 1.0, 0.3) << "beside a joint that moves";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "lib/explain/free_form.hpp"
 #include "tests/explain/explained_scara.hpp"
@@ -11,6 +12,7 @@
 namespace faultline {
 namespace {
 
+using testing::changed;
 using testing::fit_of;
 using testing::of_day;
 using testing::run_of;
@@ -61,6 +63,32 @@ TEST(PriceOfShrinking, IsPaidByTorqueLossesAlone) {
   e.day = Eigen::VectorXd::Constant(at.count(), -0.3);
   EXPECT_GT(price_of_shrinking(fit, {FaultKind::torque_loss, 2_joint, 4.0}, e), 0.0);
   EXPECT_EQ(price_of_shrinking(fit, {FaultKind::friction_increase, 2_joint, 4.0}, e), 0.0);
+}
+
+/// Returns the push of joint 2 from 4 to 4.6 s that explains a force of this form best; `form`: of the share
+/// of the push that has passed, in N m.
+template <typename Form>
+FaultHypothesis push_of(Form form) {
+  constexpr double kOnset_s = 4.0, kEnd_s = 4.6;
+  const LogFit fit =
+      fit_of(changed(simulate_closed_form(of_day(0), run_of(15)), kOnset_s, kEnd_s, [&](Log& l, int k) {
+        l.tau[1][k] -= form((l.time[k] - kOnset_s) / (kEnd_s - kOnset_s));
+      }));
+  return judge(fit, {FaultKind::collision, 2_joint, kOnset_s, kEnd_s}).value();
+}
+
+TEST(JudgedPush, HasTheFormOfAPushThatRisesTwice) {
+  const FaultHypothesis push = push_of([](double s) { return 6.0 * std::sin(3.0 * std::numbers::pi * s); });
+  EXPECT_EQ(push.label(), (FaultLabel{FaultKind::collision, 2_joint}));
+  ASSERT_EQ(push.size.size(), 12);
+  EXPECT_NEAR(push.size[3 * 3 + 1], 6.0, 0.6);
+  EXPECT_LT(push.fit.mean_square(), 2.0);
+}
+
+TEST(JudgedPush, OfPlainFormHasNoOther) {
+  const FaultHypothesis push = push_of([](double s) { return 6.0 * std::sin(std::numbers::pi * s); });
+  ASSERT_EQ(push.size.size(), 12);
+  EXPECT_TRUE(push.size.tail(6).isZero(0.0)) << push.size.transpose();
 }
 
 }  // namespace

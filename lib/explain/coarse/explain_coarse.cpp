@@ -208,6 +208,7 @@ LogExplanation explain_coarse(const CoarseLog& log) {
     if (j.gain >= enough && !fixed) refine(j, bench);
   }
   LogExplanation out = bench.explanation();
+  for (const FaultHypothesis& h : out.best) out.most_of_a_push = std::max(out.most_of_a_push, h.gain);
   if (rough.nearest) {
     CoarseBench nearest(log);
     nearest.go(rough.nearest->guess, 1);

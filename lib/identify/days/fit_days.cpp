@@ -23,7 +23,8 @@ using Eigen::VectorXd;
 
 constexpr double kRowKernels = 2.0;  // kernels between two rows: finer rows repeat each other
 constexpr int kFilterOrder = 3;      // of the autoregression of the rows
-constexpr int kFitRounds = 10;       // each fits parameters, days and noise in turn
+constexpr int kNoiseRounds = 3;  // each estimates the variance of the rows beside the autoregression before
+constexpr int kFitRounds = 10;   // each fits parameters, days and noise in turn
 // All rounds but the last, which take the noise as white: noise that wanders would explain what is constant
 // in a day, such as a weight, and the fit would let it.
 constexpr int kWhiteRounds = kFitRounds - 1;
@@ -212,7 +213,8 @@ VectorXd all_parameters(const BalanceModel& m, const std::vector<int>& free, con
 }
 
 /// Returns the draft with the noise of its rows, from the residual of days and robot: `robot` has the
-/// parameters of the one for each day. `order`: of the autoregression.
+/// parameters of the one for each day. `order`: of the autoregression; variance and autoregression are then
+/// estimated in turn.
 DayDraft with_noise(DayDraft draft, const std::vector<VectorXd>& robot, int order) {
   BalanceModel& m = draft.model;
   std::vector<LogResidual> left;
@@ -220,17 +222,20 @@ DayDraft with_noise(DayDraft draft, const std::vector<VectorXd>& robot, int orde
     const HealthyDay& day = draft.days[d];
     left.push_back({&day.rows, left_over(day, robot[d]), {}, rows_near_change(day, m)});
   }
-  m.noise = with_variance(left, m.setting, std::move(m.noise));
-  for (std::size_t d = 0; d < left.size(); ++d) {
-    HealthyDay& day = draft.days[d];
-    day.std = row_std(day.rows, m.setting, m.noise, VectorXd::Ones(m.joints()));
-    for (int k = 0; k < day.rows.rows() && m.piece_kg > 0.0; ++k)
-      if (left[d].not_counted[k])
-        day.std.row(k) =
-            (day.std.row(k).array().square() + Eigen::numext::abs2(m.piece_kg * kPieceForce)).sqrt();
-    left[d].std = day.std;
+  for (JointNoise& joint : m.noise.joint) joint.filter = VectorXd::Ones(1);
+  for (int round = 0; round < (order > 0 ? kNoiseRounds : 1); ++round) {
+    m.noise = with_variance(left, m.setting, std::move(m.noise));
+    for (std::size_t d = 0; d < left.size(); ++d) {
+      HealthyDay& day = draft.days[d];
+      day.std = row_std(day.rows, m.setting, m.noise, VectorXd::Ones(m.joints()));
+      for (int k = 0; k < day.rows.rows() && m.piece_kg > 0.0; ++k)
+        if (left[d].not_counted[k])
+          day.std.row(k) =
+              (day.std.row(k).array().square() + Eigen::numext::abs2(m.piece_kg * kPieceForce)).sqrt();
+      left[d].std = day.std;
+    }
+    m.noise = with_filter(left, order, std::move(m.noise));
   }
-  m.noise = with_filter(left, order, std::move(m.noise));
   return draft;
 }
 
