@@ -8,7 +8,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/hypothesis.hpp"
-#include "lib/explain/judge.hpp"
+#include "lib/explain/judge/judge.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/search/search.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"

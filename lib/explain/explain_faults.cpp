@@ -8,7 +8,8 @@
 
 #include "lib/explain/day/day_ripples.hpp"
 #include "lib/explain/fault_spans.hpp"
-#include "lib/explain/judge.hpp"
+#include "lib/explain/further_faults.hpp"
+#include "lib/explain/judge/judge.hpp"
 #include "lib/explain/refine.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
 #include "lib/explain/several_pushes.hpp"
@@ -20,7 +21,6 @@ constexpr std::size_t kMostFaults = 12;   // faults of one log, at most
 constexpr std::size_t kMostTogether = 3;  // faults that are tried together if one alone does not suffice
 constexpr std::size_t kFirsts = 3;        // named faults, at most, beside which further ones are searched
 constexpr int kStretchRounds = 2;         // in which the stretches of other signals are judged
-constexpr double kAsOne_s = 1.0;          // s between two onsets at one joint that count as one
 constexpr double kFirstShare = 0.3;       // share of the best evidence that each of these has, at least
 constexpr double kAlike = 0.4;            // least ratio of the sizes of two jumps of a belt that slips
 constexpr double kPriceOfRipple = 20.0;   // nats: of its rate, sine and cosine
@@ -67,37 +67,6 @@ double judged_s(const LogFit& fit) {
   return fit.model().setting.row_s() * static_cast<double>(std::count(lost.begin(), lost.end(), false));
 }
 
-/// Returns whether two faults of a joint begin so close together that the second is a form error of the
-/// first.
-bool begin_as_one(const FaultClaim& a, const FaultClaim& b) {
-  return a.joint == b.joint && std::abs(a.onset_s - b.onset_s) < kAsOne_s;
-}
-
-/// Returns the mean square that known faults leave in the first second of each, at most that of the whole
-/// log: evidence is counted in units of it, if it is larger than the noise. Later rows may hold a further
-/// fault.
-double residual_of_known(const LogFit& fit) {
-  double out = 1.0;
-  for (FaultClaim claim : fit.known()) {
-    claim.onset_s = std::max(claim.onset_s, fit.log().start_s);
-    claim.end_s = std::min(claim.end_s, claim.onset_s + kAsOne_s);
-    const ResidualWithin left = residual_within(fit, claim, fit.healthy());
-    if (const double rows = left.rows.sum(); rows > 0.0)
-      out = std::max(out, left.rows.dot(left.square) / rows);
-  }
-  return std::min(out, std::max(1.0, fit.healthy().mean_square()));
-}
-
-/// Returns whether a fault that begins before all known faults is too weak: the rows before those were taken
-/// for healthy, and its evidence is counted in units of what is left of the whole log.
-bool is_too_weak(const ExplainedFault& fault, const EvidenceLimits& limits, const LogFit& fit) {
-  const std::vector<FaultClaim>& known = fit.known();
-  const bool is_first = std::ranges::all_of(
-      known, [&](const FaultClaim& claim) { return fault.claim.onset_s < claim.onset_s; });
-  const double left = known.empty() ? 1.0 : std::max(1.0, fit.healthy().mean_square());
-  return is_first && fault.evidence <= left * limits.of(fault.claim.kind);
-}
-
 /// Returns the pushes that explain a log together if they do so better than its best fault, which lasts, and
 /// than the free form. A fault that lasts may explain more than the first push, but less than all of them;
 /// the many disturbances of a fault of no known kind have another form than pushes. `e` is the explanation
@@ -124,13 +93,7 @@ NextFault next_fault(const GivenLog& given, const std::vector<FaultClaim>& known
       given.log, given.model, known, [least](const LogFit& beside) { return explain_log(beside, least); });
   const LogFit& fit = explained.fit;
   const LogExplanation& e = explained.explanation;
-  std::vector<ExplainedFault> named = named_faults(e, scaled(limits, residual_of_known(fit)), kFirsts);
-  std::erase_if(named, [&](const ExplainedFault& fault) {
-    return is_too_weak(fault, limits, fit) || std::ranges::any_of(known, [&](const FaultClaim& claim) {
-             return begin_as_one(claim, fault.claim);
-           });
-  });
-  NextFault out{.named = std::move(named), .score = score_of(e, limits)};
+  NextFault out{.named = further_faults(fit, e, limits, kFirsts), .score = score_of(e, limits)};
   if (pushes == Pushes::compared && !out.named.empty())
     out.pushes = pushes_instead(fit, e, out.named.front(), limits);
   for (const ExplainedFault& fault : out.named)

@@ -44,6 +44,8 @@ struct FaultClaim {
   bool velocity_is_true = false;
   /// For an unknown fault: another torque of this joint's drive, so that the rows of the other joints hold.
   bool is_of_drive = false;
+  /// For a collision: its force may have all forms of kMeanOfForceForm, not the first two alone.
+  bool has_any_form = false;
 
   FaultLabel label() const { return {kind, joint}; }
 };

@@ -98,7 +98,8 @@ LinearFault payload_change(const BalanceRows& rows, const BalanceModel& m, Joint
                   link,
                   {Eigen::Map<const VectorXd>(unit.data(), unit.size()),
                    VectorXd::Constant(1, kPayloadVariance * mass * mass)},
-                  {}};
+                  {},
+                  mass};
   if (m.piece_kg > 0.0 && link == Joint::at(rows.joints() - 1))
     for (const double share : {.25, .6, 1.}) out.starts.push_back(VectorXd::Constant(1, share * mass));
   return out;

@@ -32,6 +32,8 @@ struct LinearFault {
   Joint joint{};
   FaultColumns columns;
   std::vector<Eigen::VectorXd> starts;  ///< sizes from which the path of a work piece is searched
+  /// Of a changed load: kg that the link carries, of which it cannot lose more.
+  double carried_kg = 0.0;
 };
 
 /// Returns the linear faults: torque loss unless the torque is measured behind the drive, offset of the

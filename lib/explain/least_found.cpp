@@ -8,7 +8,7 @@
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/coarse/coarse_judge.hpp"
-#include "lib/explain/judge.hpp"
+#include "lib/explain/judge/judge.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {

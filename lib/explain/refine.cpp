@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/explain/fault_spans.hpp"
-#include "lib/explain/judge.hpp"
+#include "lib/explain/judge/judge.hpp"
 #include "lib/explain/search/white_search.hpp"
 
 namespace faultline {
@@ -83,6 +83,20 @@ void add_end(const FaultHypothesis& h, JudgedHypotheses& bench) {
   });
 }
 
+/// Adds a push of any form, with an onset and an end of its own, if it explains more than a plain one by the
+/// share that any fault may miss its form. Apart from the plain one, since at wrong times a force of any form
+/// explains as much as the plain one at the right times.
+void add_any_form(const FaultHypothesis& plain, JudgedHypotheses& bench) {
+  if (plain.kind != FaultKind::collision || plain.has_any_form) return;
+  JudgedHypotheses apart{bench.fit};
+  FaultClaim claim = plain;
+  claim.has_any_form = true;
+  const std::optional<FaultHypothesis> first = apart.go(claim);
+  if (!first) return;
+  FaultHypothesis best = moved(moved(*first, &FaultClaim::onset_s, apart), &FaultClaim::end_s, apart);
+  if (best.gain > (1.0 + kFormShare) * std::max(0.0, plain.gain)) bench.judged.push_back(std::move(best));
+}
+
 }  // namespace
 
 std::optional<FaultHypothesis> JudgedHypotheses::go(const FaultClaim& claim) {
@@ -116,7 +130,7 @@ std::vector<FaultHypothesis> best_of_each(const std::vector<FaultHypothesis>& al
 void refine(const FaultHypothesis& h, JudgedHypotheses& bench) {
   FaultHypothesis best = can_move(h.kind) ? moved(h, &FaultClaim::onset_s, bench) : h;
   if (best.end_s < kNeverEnds && can_move(h.kind))
-    moved(best, &FaultClaim::end_s, bench);
+    add_any_form(moved(best, &FaultClaim::end_s, bench), bench);
   else
     add_end(best, bench);
 }

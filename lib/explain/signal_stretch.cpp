@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "lib/explain/judge.hpp"
+#include "lib/explain/judge/judge.hpp"
 #include "lib/explain/refine.hpp"
 
 namespace faultline {

@@ -52,6 +52,9 @@ void widen(double range, double usual, double scale, double& variance) {
   variance = std::max(variance, Eigen::numext::abs2(range * scale / DayEffect::kStdsInRange));
 }
 
+double top_speed_of(const BalanceModel& m, int j) { return m.top_speed[j]; }
+double top_speed_of(const OneStepModel&, int) { return 0.0; }
+
 /// Returns the identification with the friction of the model that explains the logs.
 template <typename Rows>
 Identification with_friction_of(Identification identification, const Rows& model,
@@ -59,8 +62,11 @@ Identification with_friction_of(Identification identification, const Rows& model
   const ParameterSpace& space = identification.space;
   const auto layout = model.layout();
   for (int j = 0; j < space.joints(); ++j) {
-    identification.estimate[space.viscous(j)] = model.theta[layout.viscous(j)];
-    identification.estimate[space.coulomb(j)] = model.theta[layout.coulomb(j)];
+    const double viscous = model.theta[layout.viscous(j)], coulomb = model.theta[layout.coulomb(j)];
+    // Friction that falls with speed is that of half the top speed: a simulated joint has no negative one.
+    identification.estimate[space.viscous(j)] = std::max(viscous, 0.0);
+    identification.estimate[space.coulomb(j)] =
+        std::max(coulomb + 0.5 * std::min(viscous, 0.0) * top_speed_of(model, j), 0.0);
     identification.estimate[space.log_width(j)] = elementary::log(width[j]);
     identification.robot.chain.friction[j].width = width[j];
   }
@@ -69,18 +75,26 @@ Identification with_friction_of(Identification identification, const Rows& model
   return identification;
 }
 
+// Columns and effects of the day of a base parameter of the space; a one-step model has no rotors.
+bool has_base(const BalanceModel&, const BaseParameter&) { return true; }
+bool has_base(const OneStepModel&, const BaseParameter& parameter) { return !parameter.is_rotor; }
+int inertia_at(const DayLayout&, int base) { return base; }
+int inertia_at(const StepDayLayout& at, int base) { return at.inertia(base); }
+
 /// Returns the identification with the base parameters of the model that explains the logs, and their
-/// variance between days, if they are feasible; else unchanged. A one-step model has no rotors.
-Identification with_base_of(const Identification& identification, const OneStepModel& model) {
+/// variance between days, if they are feasible; else unchanged.
+template <typename Rows>
+Identification with_base_of(const Identification& identification, const Rows& model) {
   Identification out = identification;
   const ParameterSpace& space = out.space;
   out.covariance.setZero();
   for (int p = 0, at = 0; p < space.rigid(); ++p) {
     out.estimate[p] = 0.0;
-    if (space.base[p].is_rotor) continue;
-    out.estimate[p] = model.theta[at];
+    if (!has_base(model, space.base[p])) continue;
+    const bool is_positive = space.base[p].is_mass || space.base[p].is_rotor;
+    out.estimate[p] = is_positive ? std::max(model.theta[at], 0.0) : model.theta[at];
     out.covariance(p, p) =
-        model.day_variance[model.day_layout().inertia(at)] * Eigen::numext::abs2(model.theta[at]);
+        model.day_variance[inertia_at(day_layout_of(model), at)] * Eigen::numext::abs2(model.theta[at]);
     ++at;
   }
   const bool is_feasible =
@@ -150,7 +164,7 @@ RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
 
 Identification with_explained_robot(const Identification& identification, const RobotRows& robot) {
   if (const auto* rows = std::get_if<BalanceModel>(&robot))
-    return with_friction_of(identification, *rows, rows->setting.friction_width);
+    return with_base_of(with_friction_of(identification, *rows, rows->setting.friction_width), *rows);
   const auto& steps = std::get<OneStepModel>(robot);
   if (!steps.theta.allFinite() || !steps.reading_variance.allFinite())
     throw predictions_diverge(steps.setting.period_s);

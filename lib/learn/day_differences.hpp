@@ -18,9 +18,9 @@ DayDifferences day_differences(const RobotRows& robot);
 RobotRows with_stated_ranges(RobotRows robot, const NormalRange& stated,
                              const std::vector<double>& torque_scale);
 
-/// Returns the identified robot with the friction of the model that explains its logs; at coarse rates also
-/// with its measurement noise, and with its base parameters if they are feasible. The twin then does not
-/// differ from the model that judges it. Throws Error(input) if one-step predictions diverge.
+/// Returns the identified robot with friction and, if they are feasible, base parameters of the model that
+/// explains its logs; at coarse rates also with its measurement noise. The twin then does not differ from the
+/// model that judges it. Throws Error(input) if one-step predictions diverge.
 Identification with_explained_robot(const Identification& identification, const RobotRows& robot);
 
 }  // namespace faultline

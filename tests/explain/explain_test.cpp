@@ -255,7 +255,7 @@ TEST(ExplainLog, APushThatSwellsAndFadesIsACollision) {
   const auto fault = decided(fit);
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->label(), (FaultLabel{FaultKind::collision, 2_joint}));
-  EXPECT_NEAR(fault->claim.end_s - fault->claim.onset_s, 0.8, 0.25);
+  EXPECT_NEAR(fault->claim.end_s - fault->claim.onset_s, 0.8, 0.2);
 }
 
 /// A torque on joint 2 that the drive is spared from 4 s on.

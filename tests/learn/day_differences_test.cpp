@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/identify/days/fit_coarse_days.hpp"
@@ -13,6 +14,17 @@
 
 namespace faultline {
 namespace {
+
+/// An identification whose values and doubts are all those of no robot.
+Identification identification_of(const Robot& robot) {
+  Identification out;
+  out.space = parameter_space(robot);
+  out.robot = robot;
+  out.estimate = Eigen::VectorXd::Constant(out.space.count(), 7.0);
+  out.covariance = Eigen::MatrixXd::Identity(out.space.count(), out.space.count());
+  out.q_noise = out.dq_noise = {1.0, 1.0, 1.0};
+  return out;
+}
 
 TEST(ExplainedRobot, TheTwinHasTheNoiseAndTheVariancesOfTheModel) {
   std::vector<MemorySource> days;
@@ -28,12 +40,7 @@ TEST(ExplainedRobot, TheTwinHasTheNoiseAndTheVariancesOfTheModel) {
   std::vector<LogSource*> logs;
   for (MemorySource& day : days) logs.push_back(&day);
   const Robot robot = robot_from_toml("axes = \"RRP\"\n[known]\nl1 = 1.0\nl2 = 0.8\n", "robot");
-  Identification identified;
-  identified.space = parameter_space(robot);
-  identified.robot = robot;
-  identified.estimate = Eigen::VectorXd::Constant(identified.space.count(), 7.0);
-  identified.covariance = Eigen::MatrixXd::Identity(identified.space.count(), identified.space.count());
-  identified.q_noise = identified.dq_noise = {1.0, 1.0, 1.0};
+  const Identification identified = identification_of(robot);
   const OneStepModel model = fit_coarse_days(logs, robot, identified.space, TorqueTiming::held);
   const Identification twin = with_explained_robot(identified, model);
   const ParameterSpace& space = twin.space;
@@ -48,6 +55,27 @@ TEST(ExplainedRobot, TheTwinHasTheNoiseAndTheVariancesOfTheModel) {
   EXPECT_NEAR(std::sqrt(twin.covariance(0, 0)),
               model.theta[0] * std::sqrt(model.day_variance[model.day_layout().inertia(0)]), 1e-12);
   EXPECT_EQ(twin.covariance(space.viscous(0), space.viscous(0)), 0.0);
+}
+
+TEST(ExplainedRobot, TheTwinHasInertiaAndFrictionOfTheModel) {
+  const BalanceModel& model = testing::scara_model();
+  const Identification twin = with_explained_robot(identification_of(testing::scara_robot()), model);
+  const ParameterSpace& space = twin.space;
+  for (int p = 0; p < space.rigid(); ++p) {
+    EXPECT_NEAR(twin.estimate[p], std::max(model.theta[p], 0.0), 1e-12) << space.name(p);
+    EXPECT_NEAR(twin.covariance(p, p), model.day_variance[p] * std::pow(model.theta[p], 2), 1e-12) << p;
+  }
+  EXPECT_EQ(twin.covariance(space.viscous(0), space.viscous(0)), 0.0);
+}
+
+TEST(ExplainedRobot, FrictionThatFallsWithSpeedBecomesThatOfHalfTheTopSpeed) {
+  BalanceModel model = testing::scara_model();
+  double& viscous = model.theta[model.layout().viscous(1)];
+  const double coulomb = model.theta[model.layout().coulomb(1)];
+  viscous = -0.5 * coulomb / model.top_speed[1];
+  const Identification twin = with_explained_robot(identification_of(testing::scara_robot()), model);
+  EXPECT_EQ(twin.estimate[twin.space.viscous(1)], 0.0);
+  EXPECT_NEAR(twin.estimate[twin.space.coulomb(1)], 0.75 * coulomb, 1e-9);
 }
 
 TEST(StatedRanges, ApplyToAllFrictionEffectsOfTheDay) {

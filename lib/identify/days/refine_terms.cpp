@@ -18,8 +18,9 @@ using Eigen::VectorXd;
 
 // Factors on a friction width, tried in turn; a parabola through the best and its neighbours gives the width.
 constexpr std::array kWidthFactors{.6, .75, .9, 1., 1.12, 1.3, 1.6};
-constexpr double kClearSpring = 20.0;  // nats, from rows that are not quite independent
-constexpr double kWidthRidge = 1e-12;  // for joints at rest
+constexpr double kClearSpring = 20.0;   // nats, from rows that are not quite independent
+constexpr double kLeastBySpring = 0.2;  // share of the squared residual: friction at reversals imitates less
+constexpr double kWidthRidge = 1e-12;   // for joints at rest
 
 /// Slower ripples look like gravity and inertia. Refined rates would fit a faulty log among the healthy ones
 /// so well that it is not doubted any more.
@@ -110,8 +111,10 @@ DayDraft with_chosen_springs(DayDraft draft) {
       setting.compliance[j] = compliance;
       return residual_with(draft, j, setting);
     };
+    const double rigid = left(0.0), elastic = left(m.compliance(j));
     draft.used[spring] = draft.used[spring] && m.compliance(j) > 0.0 &&
-                         0.5 * rows * elementary::log(left(0.0) / left(m.compliance(j))) > kClearSpring;
+                         elastic < (1.0 - kLeastBySpring) * rigid &&
+                         0.5 * rows * elementary::log(rigid / elastic) > kClearSpring;
   }
   return draft;
 }

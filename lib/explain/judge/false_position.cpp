@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lib/core/elementary/elementary.hpp"
-#include "lib/explain/judge.hpp"
+#include "lib/explain/judge/judge.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/explain/judge.hpp"
+#include "lib/explain/judge/judge.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include "lib/balance/smoothing.hpp"
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/explain/free_form.hpp"
+#include "lib/explain/judge/judge_force.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
 
 namespace faultline {
@@ -180,16 +181,19 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
   return out;
 }
 
-/// Returns the nats of a size that the kind does not have.
-double price_of_size(const LogFit& fit, const FaultClaim& claim, const Explanation& e) {
+/// Returns the nats of a size that the fault does not have.
+double price_of_size(const LogFit& fit, const LinearFault& fault, const FaultClaim& claim,
+                     const Explanation& e) {
   const VectorXd& size = e.size;
-  const FaultKind kind = claim.kind;
+  const FaultKind kind = fault.kind;
   const int j = claim.joint.index();
   if (kind == FaultKind::torque_loss)
     return kNoSuchSize * std::max(0.0, -size[0]) + kBeyondLoss * std::max(0.0, size[0] - kMostLoss);
   if (kind == FaultKind::torque_sensor_error) return 0.0;
-  if (kind == FaultKind::payload_change)
-    return size[0] < 0.0 && fit.has_piece() && claim.joint == fit.last_joint() ? kNoSuchSize : 0.0;
+  if (kind == FaultKind::payload_change) {
+    if (size[0] < 0.0 && fit.has_piece() && claim.joint == fit.last_joint()) return kNoSuchSize;
+    return kBeyondLoss * std::max(0.0, -size[0] / fault.carried_kg - 1.0);
+  }
   const ColumnLayout layout = fit.model().layout();
   const VectorXd& theta = fit.model().theta;
   const auto seconds = [&](double time_s) { return claim.grows ? time_s - claim.onset_s : 1.0; };
@@ -215,55 +219,11 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
   claim.kind = fault.kind;
   claim.grows = fault.columns.grow;
   const double shrinking = price_of_shrinking(fit, claim, e),
-               price = price_of_size(fit, claim, e) + shrinking;
+               price = price_of_size(fit, fault, claim, e) + shrinking;
   if (fault.kind == FaultKind::torque_loss && e.size[0] > kFreeShare) claim.kind = FaultKind::free_swinging;
   FaultHypothesis out = hypothesis(fit, claim, std::move(e), price);
   out.shrinking = shrinking;
   return out;
-}
-
-constexpr int kPlainForms = 2;  // of kMeanOfForceForm: constant, and half a sine
-constexpr int kForms = static_cast<int>(kMeanOfForceForm.size());
-
-/// Returns the indices of the first `forms` forms of a force on the joints from `first` (from 0) on, `count`
-/// of them, among those of a force on all `joints`.
-std::vector<int> forms_on(int first, int count, int forms, int joints) {
-  std::vector<int> out;
-  for (int form = 0; form < forms; ++form)
-    for (int j = first; j < first + count; ++j) out.push_back(form * joints + j);
-  return out;
-}
-
-/// Judges a force from onset to end on all joints, and on the joint alone with the greatest force for its
-/// torque, at which it is reported: of plain form, and of all forms. The likeliest counts, but one of all
-/// forms only if it explains more than a plain one by the share that any fault may miss its form.
-FaultHypothesis judge_force(const LogFit& fit, FaultClaim claim) {
-  const FaultColumns columns = force_columns(fit.rows(), fit.model().setting, claim.onset_s, claim.end_s);
-  const auto explained_by = [&](const std::vector<int>& some) {
-    std::vector<VectorXd> starts;
-    if (fit.has_piece()) starts.push_back(VectorXd::Zero(std::ssize(some)));
-    const FaultColumns force{StackedColumns(columns.column(Eigen::all, some)), columns.variance(some)};
-    Explanation e = fit.explain_with_piece(fit.residual(), force, starts, claim.onset_s);
-    VectorXd size = VectorXd::Zero(columns.sizes());
-    size(some) = e.size;
-    e.size = std::move(size);
-    return e;
-  };
-  const int n = fit.joints();
-  const auto likelier = [](Explanation a, Explanation b) {
-    return std::move(b.log_likelihood > a.log_likelihood ? b : a);
-  };
-  Explanation plain = explained_by(forms_on(0, n, kPlainForms, n));
-  int j = 0;
-  const VectorXd peak = plain.size.head(n) + plain.size.segment(n, n);
-  peak.cwiseAbs2().cwiseQuotient(columns.variance.head(n)).maxCoeff(&j);
-  claim.joint = Joint::at(j);
-  plain = likelier(std::move(plain), explained_by(forms_on(j, 1, kPlainForms, n)));
-  Explanation shaped =
-      likelier(explained_by(forms_on(0, n, kForms, n)), explained_by(forms_on(j, 1, kForms, n)));
-  const double usual = std::max(0.0, plain.log_likelihood - fit.healthy().log_likelihood);
-  const bool is_plain = shaped.log_likelihood - plain.log_likelihood <= kFormShare * usual;
-  return hypothesis(fit, claim, is_plain ? std::move(plain) : std::move(shaped), 0.0);
 }
 
 FaultHypothesis judge_collision(const LogFit& fit, FaultClaim claim) {
