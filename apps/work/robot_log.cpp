@@ -20,9 +20,9 @@ std::unique_ptr<LogSource> robot_log_of(std::unique_ptr<RawReader> reader, const
   std::unique_ptr<LogSource> log =
       coupled(mended(std::make_unique<MappedSource>(std::move(reader), options), sliding_joints(robot.chain)),
               robot.log.coupling);
-  if (robot.torque_delay_s.empty() && robot.torque_gain.empty()) return log;
-  return std::make_unique<DelayedTorqueSource>(std::move(log),
-                                               DelayedTorque(robot.torque_delay_s, robot.torque_gain));
+  if (robot.torque_delay_s.empty() && robot.torque_gain.empty() && robot.torque_limit.empty()) return log;
+  return std::make_unique<DelayedTorqueSource>(
+      std::move(log), DelayedTorque(robot.torque_delay_s, robot.torque_gain, robot.torque_limit));
 }
 
 std::unique_ptr<LogSource> open_robot_log(const std::string& path, const Robot& robot,

@@ -34,6 +34,8 @@ struct BalanceModel {
   /// Bound of the residual torque of a joint that rests, N m or N, if static friction holds it: its torque is
   /// any within this bound. 0 if friction by speed explains the joint at rest, too.
   Eigen::VectorXd stiction;
+  /// Largest torque of each drive, N m or N: a command beyond it does not arrive. 0 if no limit is known.
+  Eigen::VectorXd drive_limit;
   Eigen::VectorXi longest_repeat;  ///< longest run of samples that repeat the position before
   Eigen::VectorXd repeat_share;    ///< share of samples that repeat the position before
 

@@ -53,7 +53,7 @@ Terms non_negative(const TermMatrix& a, const Terms& b) {
 }
 
 bool counts(const LogResidual& log, int k, int j) {
-  return !log.rows->lost[k] && !log.rows->rests(k, j) && (log.not_counted.empty() || !log.not_counted[k]);
+  return !log.rows->lost[k] && !log.rows->is_silent(k, j) && (log.not_counted.empty() || !log.not_counted[k]);
 }
 
 /// A row of one joint whose squared residual says how large the noise is.
@@ -100,7 +100,7 @@ MatrixXd row_std(const BalanceRows& rows, const RowSetting& setting, const RowNo
     share << n.base * loudness[j] * loudness[j], n.torque, n.rest, n.speed, n.timing, n.others;
     for (int k = 0; k < rows.rows(); ++k) {
       out(k, j) = std::sqrt(share.dot(variance_terms(rows, setting, k, j)));
-      if (rows.lost[k] || rows.rests(k, j)) out(k, j) = kNoWeight;
+      if (rows.lost[k] || rows.is_silent(k, j)) out(k, j) = kNoWeight;
     }
   }
   return out;

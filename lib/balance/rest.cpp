@@ -10,6 +10,7 @@ namespace {
 constexpr int kFewestRows = 3;        // successive slow rows of a joint that rests
 constexpr double kSlowShare = 0.01;   // of the greatest healthy speed
 constexpr double kBeyondNoise = 3.0;  // times the noise of a measured velocity
+constexpr double kAtLimit = 0.98;     // share of the limit of a drive from which on a row is at it
 constexpr double kOutside = 0.05;     // share of the healthy range by which a joint must be outside
 constexpr double kBounces_s = 0.30;   // time for which it bounces before it stays, at most
 constexpr double kForce = 1e4;        // N m or N: standard deviation of the force of an end stop
@@ -76,6 +77,24 @@ JointMask rows_within_stiction(const BalanceRows& rows, const BalanceModel& mode
   for (int j = 0; j < out.cols(); ++j)
     for (int k = 0; k < rows.rows(); ++k)
       out(k, j) = out(k, j) && std::abs(residual(k, j)) < model.stiction[j];
+  return out;
+}
+
+JointMask rows_at_limit(const BalanceRows& rows, const BalanceModel& model) {
+  if (model.drive_limit.isZero(0.0)) return {};
+  JointMask out = JointMask::Constant(rows.rows(), rows.joints(), false);
+  for (int j = 0; j < rows.joints(); ++j)
+    for (int k = 0; k < rows.rows() && model.drive_limit[j] > 0.0; ++k)
+      if (std::abs(rows.torque(k, j)) > kAtLimit * model.drive_limit[j])
+        for (int i = std::max(0, k - 1); i < std::min(rows.rows(), k + 2); ++i) out(i, j) = true;
+  return out;
+}
+
+JointMask silent_balances(const BalanceRows& rows, const BalanceModel& model) {
+  const JointMask sticks = sticking_rows(rows, model);
+  JointMask out = rows_at_limit(rows, model);
+  if (out.size() == 0) return sticks;
+  if (sticks.size() > 0) out = out || sticks;
   return out;
 }
 

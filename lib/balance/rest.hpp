@@ -20,6 +20,14 @@ JointMask sticking_rows(const BalanceRows& rows, const BalanceModel& model);
 JointMask rows_within_stiction(const BalanceRows& rows, const BalanceModel& model,
                                const Eigen::MatrixXd& residual);
 
+/// Returns the rows in which a joint's torque is at the limit of its drive (BalanceModel::drive_limit) or
+/// beyond, and the rows beside. Empty if no drive has a limit.
+JointMask rows_at_limit(const BalanceRows& rows, const BalanceModel& model);
+
+/// Returns the balances of healthy logs that show nothing: sticking_rows() and rows_at_limit(). Empty if
+/// there is none.
+JointMask silent_balances(const BalanceRows& rows, const BalanceModel& model);
+
 /// Returns the rows with zeros in the balances that `mask` marks, so that a sum over them leaves these out.
 BalanceRows without_balances(BalanceRows rows, const JointMask& mask);
 

@@ -23,12 +23,12 @@ struct BalanceRows {
   Eigen::MatrixXd step_square;  ///< rows x joints: sum of (weight of the kernel * step of the torque)^2
   std::vector<Eigen::MatrixXd> column;  ///< by joint: rows x parameters (see ColumnLayout)
   std::vector<bool> lost;               ///< by row: its kernel crosses samples that the log lacks
-  /// Balances without weight: the joint rests within its static friction. Empty if there is none.
-  JointMask at_rest{};
+  /// Balances that show nothing and have no weight (silent_balances()). Empty if there is none.
+  JointMask silent{};
 
   int rows() const { return static_cast<int>(time_s.size()); }
   int joints() const { return static_cast<int>(torque.cols()); }
-  bool rests(int row, int j) const { return at_rest.size() > 0 && at_rest(row, j); }
+  bool is_silent(int row, int j) const { return silent.size() > 0 && silent(row, j); }
 };
 
 /// Returns the rows of one log. The columns of springs and load friction take inertia and carried torque from

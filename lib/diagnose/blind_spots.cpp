@@ -80,6 +80,18 @@ std::vector<std::string> resting_spots(const LogFacts& log) {
   return spots;
 }
 
+std::vector<std::string> torque_limit_spots(const LogFacts& log, const Robot& robot) {
+  std::vector<std::string> spots;
+  for (std::size_t j = 0; j < log.at_limit.size(); ++j)
+    if (log.at_limit[j] > 0.0)
+      spots.push_back(fmt::format(
+          "In {:.2g} % of the rows more is commanded than the drive of joint {} gives ({:.3g} {}): the torque of the "
+          "joint is not judged there.",
+          100.0 * log.at_limit[j], Joint::at(static_cast<int>(j)), robot.torque_limit[j],
+          torque_unit(robot.chain.geometry[j].kind)));
+  return spots;
+}
+
 std::vector<std::string> relation_spots(const std::vector<SignalRelation>& relations,
                                         const std::vector<double>& judged_s) {
   std::vector<std::string> spots;

@@ -14,6 +14,8 @@ std::vector<std::string> blind_spots(TorqueMeaning torque, bool has_velocity);
 
 /// Lists the joints that hardly moved, so that some faults cannot be seen there, a sentence each.
 std::vector<std::string> resting_spots(const LogFacts& log);
+/// Lists the joints of which torques are at the limit of the drive, a sentence each; these rows show nothing.
+std::vector<std::string> torque_limit_spots(const LogFacts& log, const Robot& robot);
 /// Lists the stretches in which a joint could not be judged (LogFacts::unjudged), a sentence each for the
 /// first few, and the number of the others.
 std::vector<std::string> unjudged_spots(const LogFacts& log);

@@ -64,7 +64,7 @@ LogFindings found_by_torque(const MonitoredLog& run, const Model& model, const C
   for (const JudgedStretch& judged : run.stretches)
     out.faults.push_back(finding_of(run.relation_episodes[judged.stretch.id], judged, run.log.end_s, model));
   for (auto& more :
-       {unjudged_spots(run.log), resting_spots(run.log),
+       {unjudged_spots(run.log), resting_spots(run.log), torque_limit_spots(run.log, model.robot),
         blind_spots(model.robot.log.torque, run.log.has_velocity),
         relation_spots(model.relations, run.relations_judged_s),
         drive_limit_spots(model.relations, run.relations_beyond_s, model.robot.chain),

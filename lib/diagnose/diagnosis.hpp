@@ -151,6 +151,7 @@ struct LogFacts {
   std::vector<LogRun> runs;               ///< of its clock; one if it never restarts, none without a file
   std::vector<UnjudgedStretch> unjudged;  ///< by start
   std::vector<Joint> resting;             ///< joints that hardly moved compared with the healthy logs
+  std::vector<double> at_limit;           ///< by joint: share of the torques at Robot::torque_limit; or empty
   std::int64_t rows_unjudged = 0;         ///< of the joint log: without a position or torque, or left out
   bool is_whole = true;  ///< every row is used and judged, and none is missing within the log
   Issues issues;

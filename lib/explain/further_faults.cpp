@@ -43,24 +43,26 @@ bool is_too_weak(const ExplainedFault& fault, const EvidenceLimits& limits, cons
   return is_first && fault.evidence <= left * limits.of(fault.claim.kind);
 }
 
-/// Returns the nats of a systematic form error of the known faults in the rows of a further one: what their
-/// columns lack (form_shares()) may have the sign of its effect in each of them, while the noise of the rows
-/// takes it for independent.
-double form_error_of_known(const LogFit& fit, const FaultClaim& further) {
-  const LinearFault* linear = linear_of(fit.linear(), further);
-  double out = 0.0;
-  for (const FaultClaim& known : fit.known()) {
-    if (known.size.size() == 0 || falsifies_position(known.kind)) continue;
-    const VectorXd share = form_shares(fit.rows(), fit.model().setting, known);
-    const MatrixXd torque = unstacked(columns_of(fit, known).column * known.size, fit.joints());
-    const MatrixXd error =
-        unstacked(fit.whitened(stacked(torque.array().colwise() * share.array())), fit.joints());
-    for (int j = 0; j < fit.joints(); ++j) {
-      if (linear && linear->columns.column.middleRows(j * fit.count(), fit.count()).isZero(0.0)) continue;
-      for (int k = fit.first_row(further.onset_s); k < fit.first_row(further.end_s); ++k)
-        if (!std::isnan(error(k, j))) out += 0.5 * Eigen::numext::abs2(error(k, j));
-    }
+/// Returns the nats of a systematic form error of the known faults, by row (rows x joints): what their
+/// columns lack may have the sign of a further fault's effect in each row, while the noise takes it for
+/// independent.
+MatrixXd form_errors_of_known(const LogFit& fit) {
+  MatrixXd out = MatrixXd::Zero(fit.count(), fit.joints());
+  for (const Stacked& error : fit.form_errors()) {
+    const MatrixXd white = unstacked(fit.whitened(error), fit.joints());
+    out += white.array().isNaN().select(0.0, 0.5 * white.array().square()).matrix();
   }
+  return out;
+}
+
+/// Returns the sum of these nats over the rows of a fault, at the joints on which it acts.
+double sum_within(const MatrixXd& nats, const LogFit& fit, const FaultClaim& claim) {
+  const LinearFault* linear = linear_of(fit.linear(), claim);
+  const int first = fit.first_row(claim.onset_s), last = fit.first_row(claim.end_s);
+  double out = 0.0;
+  for (int j = 0; j < fit.joints(); ++j)
+    if (!linear || !linear->columns.column.middleRows(j * fit.count(), fit.count()).isZero(0.0))
+      out += nats.col(j).segment(first, last - first).sum();
   return out;
 }
 
@@ -69,9 +71,11 @@ double form_error_of_known(const LogFit& fit, const FaultClaim& further) {
 std::vector<ExplainedFault> further_faults(const LogFit& fit, const LogExplanation& e,
                                            const EvidenceLimits& limits, std::size_t most) {
   std::vector<ExplainedFault> out = named_faults(e, scaled(limits, residual_of_known(fit)), most);
+  if (out.empty()) return out;
+  const MatrixXd form_errors = form_errors_of_known(fit);
   std::erase_if(out, [&](const ExplainedFault& fault) {
     return is_too_weak(fault, limits, fit) ||
-           fault.evidence <= limits.of(fault.claim.kind) + form_error_of_known(fit, fault.claim) ||
+           fault.evidence <= limits.of(fault.claim.kind) + sum_within(form_errors, fit, fault.claim) ||
            std::ranges::any_of(fit.known(),
                                [&](const FaultClaim& known) { return begin_as_one(known, fault.claim); });
   });

@@ -17,10 +17,9 @@ namespace faultline {
 
 inline constexpr double kNoSuchSize = 1e9;  ///< price of a size that no fault of the kind has
 inline constexpr double kMostLoss = 1.2;    ///< share of the torque: a larger loss is an error of the fit
-inline constexpr double kBeyondLoss =
-    2e4;  ///< price for each share of torque or load lost beyond what there is
-inline constexpr double kStillJoint = 3.0;       ///< price of a joint, or of a position, that does not move
-inline constexpr double kForcedRow = 1.2;        ///< price of each row that an unknown force explains
+inline constexpr double kBeyondLoss = 2e4;  ///< price for each share lost beyond all torque or load
+inline constexpr double kStillJoint = 3.0;  ///< price of a joint, or of a position, that does not move
+inline constexpr double kForcedRow = 1.2;   ///< price of each row that an unknown force explains
 inline constexpr double kRepeatedReading = 2.0;  ///< price of each repeated position of a locked joint
 inline constexpr int kMostRepeats = 500;         ///< repeated positions that count for a stuck encoder
 inline constexpr double kStuckShare = 0.98;      ///< least share of positions that a stuck encoder repeats

@@ -123,8 +123,12 @@ LogFit::LogFit(UniformLog log, const BalanceModel& model, std::vector<FaultClaim
                     model.theta.segment(layout.spring(0), joints());
   spring_ = stacked(spring);
   known_torque_ = Stacked::Zero(residual_.size());
-  const JointMask rest = rows_within_stiction(rows_, model, unstacked(residual_, joints()));
-  if (rest.size() > 0 && rest.any()) silent_.assign(rest.data(), rest.data() + rest.size());
+  for (const JointMask& mask :
+       {rows_within_stiction(rows_, model, unstacked(residual_, joints())), rows_at_limit(rows_, model)}) {
+    if (mask.size() == 0 || !mask.any()) continue;
+    silent_.resize(mask.size(), false);
+    for (std::size_t i = 0; i < silent_.size(); ++i) silent_[i] = silent_[i] || mask.data()[i];
+  }
   std_ = row_deviation(rows_, model, noise_level_);
   linear_ = linear_faults(rows_, model);
   effects_ = EffectColumns(day_columns(rows_, model));
@@ -185,12 +189,13 @@ void LogFit::whiten_effects() {
 /// Adds a known fault as an effect whose size is estimated; the form error of its columns is noise.
 void LogFit::add_fault(const FaultColumns& columns, const FaultClaim& claim) {
   const Stacked torque = columns.column * claim.size;
+  const MatrixXd inexact =
+      unstacked(torque, joints()).array().colwise() * form_shares(rows_, model_.setting, claim).array();
   if (!falsifies_position(claim.kind)) {
     known_torque_ += torque;
     residual_ -= torque;
+    form_errors_.push_back(stacked(inexact));
   }
-  const MatrixXd inexact =
-      unstacked(torque, joints()).array().colwise() * form_shares(rows_, model_.setting, claim).array();
   std_ = (std_.array().square() + inexact.array().square()).sqrt();
   const Eigen::Index effects = effect_variance_.size();
   effect_variance_.conservativeResize(effects + columns.sizes());

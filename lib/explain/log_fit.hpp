@@ -54,6 +54,8 @@ class LogFit {
   /// Log without the known false readings.
   const UniformLog& log() const { return log_; }
   const std::vector<FaultClaim>& known() const { return known_; }
+  /// Torque that the columns of the known faults may lack (form_shares()), for each that adds torque.
+  const std::vector<Stacked>& form_errors() const { return form_errors_; }
   /// Returns whether the rows of a joint are silent at a time because of a known fault.
   bool is_silent(Joint joint, double time_s) const;
   const BalanceModel& model() const { return model_; }
@@ -148,6 +150,7 @@ class LogFit {
   std::vector<Whitener> white_;  ///< by joint, for std_ and noise_
   Stacked residual_, spring_;
   Stacked known_torque_;  ///< of the known faults, with the sizes of their claims
+  std::vector<Stacked> form_errors_;
   std::vector<LinearFault> linear_;
   StackedMask silent_;  ///< empty if no row is
   EffectColumns effects_, white_effects_;

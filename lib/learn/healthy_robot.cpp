@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -58,7 +59,7 @@ DelayedTorque conversion_of(const Robot& opened_with, const Robot& robot) {
   for (std::size_t j = 0; j < opened_with.torque_delay_s.size(); ++j)
     delay_s[j] -= opened_with.torque_delay_s[j];
   for (std::size_t j = 0; j < opened_with.torque_gain.size(); ++j) gain[j] /= opened_with.torque_gain[j];
-  return {std::move(delay_s), std::move(gain)};
+  return {std::move(delay_s), std::move(gain), robot.torque_limit};
 }
 
 /// Returns the logs that were not left out, with delay and gain of torques compensated; `logs` outlive them.
@@ -97,7 +98,8 @@ bool has_doubtful_delay(const Identification& identification, const Robot& robot
 }
 
 FittedDays fitted_days(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
-  return fit_days(days, robot.identification.space, torque_between_samples(robot.model.robot));
+  const Robot& known = robot.model.robot;
+  return fit_days(days, robot.identification.space, torque_between_samples(known), known.torque_limit);
 }
 
 /// Learns the robot at a coarse rate from all logs, and without each of them in turn.
@@ -121,7 +123,18 @@ void learn_steps(HealthyRobot& robot, const std::vector<LogSource*>& days, int t
   robot.without = std::move(without);
 }
 
+Issue drive_limit_issue(Joint joint, double torque) {
+  return make_issue("drive_limit", Severity::warning,
+                    fmt::format("the drive of joint {} gives at most {:.3g} in these logs, whatever is "
+                                "commanded: a torque beyond it is not judged",
+                                joint, torque),
+                    to_string({Quantity::tau, joint}));
+}
+
 void take_rows(HealthyRobot& robot, FittedDays fit) {
+  for (int j = 0; j < fit.model.joints(); ++j)
+    if (const double limit = fit.model.drive_limit[j]; limit > 0.0)
+      robot.identification.issues.add(drive_limit_issue(Joint::at(j), limit));
   robot.model.explain.robot = std::move(fit.model);
   robot.without.clear();
   for (BalanceModel& model : fit.without) robot.without.emplace_back(std::move(model));
@@ -169,6 +182,26 @@ EmptyRows rows_within(LogSource& log, const std::vector<EmptyTimes>& times) {
       is_open = true;
       out.empty.back().end = out.all + 1;
     }
+  return out;
+}
+
+/// Returns the robot that opened the logs with the limits of the drives that a first fit found.
+Robot with_drive_limits(Robot robot, const HealthyRobot& first, const BalanceModel& fit) {
+  if (!robot.torque_limit.empty() || fit.drive_limit.isZero(0.0)) return robot;
+  robot.torque_limit.assign(fit.drive_limit.begin(), fit.drive_limit.end());
+  const std::vector<double>&now = first.model.robot.torque_gain, &before = robot.torque_gain;
+  for (std::size_t j = 0; j < robot.torque_limit.size(); ++j)
+    robot.torque_limit[j] *= std::abs((before.empty() ? 1.0 : before[j]) / (now.empty() ? 1.0 : now[j]));
+  return robot;
+}
+
+/// Returns the logs with their torques cut to the limits of the drives.
+std::deque<DelayedTorqueSource> within_limits(std::span<LogSource* const> logs, const Robot& robot) {
+  std::deque<DelayedTorqueSource> out;
+  for (LogSource* log : logs) {
+    log->rewind();
+    out.emplace_back(*log, DelayedTorque({}, {}, robot.torque_limit));
+  }
   return out;
 }
 
@@ -251,16 +284,20 @@ HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
     return first;
   }
   FittedDays fit = fitted_days(first, first.days);
+  const Robot limited = with_drive_limits(robot, first, fit.model);
+  std::deque<DelayedTorqueSource> cut = within_limits(logs, limited);
+  std::vector<LogSource*> sources = pointers(cut);
   std::deque<SelectedRowsSource> empty;
-  if (robot.payloads.empty()) empty = without_work_piece(logs, first, fit);
-  if (empty.empty() && !doubtful) {
+  if (robot.payloads.empty()) empty = without_work_piece(sources, first, fit);
+  if (!empty.empty()) sources = pointers(empty);
+  const bool is_better_known = !empty.empty() || limited.torque_limit != robot.torque_limit;
+  if (!is_better_known && !doubtful) {
     take_rows(first, std::move(fit));
     return first;
   }
-  if (!empty.empty()) {
-    identification = identify(pointers(empty), robot, options, part_of(progress, kFitted, kSecond));
-    identification.issues.add(work_piece_issue(fit.model.piece_kg));
-  }
+  if (is_better_known)
+    identification = identify(sources, limited, options, part_of(progress, kFitted, kSecond));
+  if (!empty.empty()) identification.issues.add(work_piece_issue(fit.model.piece_kg));
   if (progress) progress("learning what differs from day to day", kSecond);
   HealthyRobot second = with_identification(logs, robot, std::move(identification), std::move(given));
   set_days(second);

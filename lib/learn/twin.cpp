@@ -8,6 +8,7 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/feasible/feasible.hpp"
+#include "lib/simulate/mobility.hpp"
 
 namespace faultline {
 namespace {
@@ -28,7 +29,9 @@ constexpr double kMoveOfAStill_s = 1.0;  // duration of the usual move if no joi
 constexpr double kLeastDeviation = 0.01;  // share of the uncertainty: below, the estimate itself is used
 constexpr double kMostStds = 2.0;         // standard deviations of an effect of the day: the normal range
 constexpr double kLeastFriction = 0.3;    // factor of the friction of a day: there is always some
-constexpr double kLeastGain = -0.9;       // change of the gain of a day: no drive reverses its torque
+constexpr double kSlowestFriction_s =
+    5e-4;                            // time in which friction slows a joint: shorter changes no window
+constexpr double kLeastGain = -0.9;  // change of the gain of a day: no drive reverses its torque
 
 std::vector<double> scaled(std::vector<double> values, double by) {
   for (double& value : values) value *= by;
@@ -208,6 +211,8 @@ SimulationSpec spec_of(const Twin& twin, int attempt, Random& random) {
   for (const double speed : twin.motion->velocity_scale)
     spec.overspeed.push_back(twin.options.trip_speed * speed);
   spec.stops = draw_stops(twin, random);
+  for (const double limit : twin.identification->robot.torque_limit)
+    spec.torque_limit.push_back(limit > 0.0 ? limit : std::numeric_limits<double>::infinity());
   return spec;
 }
 
@@ -215,7 +220,7 @@ SimulationSpec spec_of(const Twin& twin, int attempt, Random& random) {
 TwinRun try_twin_run(const Twin& twin, const FaultLabel& label, std::uint64_t seed, int attempt) {
   Random random = Random::stream(seed, kDrawStream + static_cast<std::uint64_t>(attempt));
   Robot robot = draw_robot(twin, random);
-  robot = draw_day(twin, std::move(robot), random);
+  robot = with_slow_friction(draw_day(twin, std::move(robot), random), kSlowestFriction_s);
   SimulationSpec spec = spec_of(twin, attempt, random);
   TwinRun run;
   run.label = label;

@@ -101,6 +101,7 @@ void fields(auto& v, MaybeConst<BalanceModel> auto& m) {
   v("q_noise", m.q_noise);
   v("dq_noise", m.dq_noise);
   v("stiction", m.stiction);
+  v("drive_limit", m.drive_limit);
   v("rigid", m.rigid);
   v("ripples", m.setting.ripples);
   v("noise", m.noise.joint);
@@ -146,7 +147,8 @@ BalanceModel balance_from_json(const nlohmann::json& json, const std::string& wh
   check_sizes(where, n,
               {m.setting.friction_width.size(), m.setting.compliance.size(), std::ssize(m.noise.joint),
                m.q_noise.size(), m.q_low.size(), m.q_high.size(), m.top_speed.size(), m.torque_rms.size(),
-               m.longest_repeat.size(), m.repeat_share.size(), m.payload.cols(), m.stiction.size()});
+               m.longest_repeat.size(), m.repeat_share.size(), m.payload.cols(), m.stiction.size(),
+               m.drive_limit.size()});
   if (m.setting.fusion.size() > 0) check_sizes(where, n, {m.setting.fusion.size()});
   check_sizes(where, m.layout().count(), {m.theta.size()});
   check_sizes(where, day_layout(m).count(), {m.day_variance.size()});

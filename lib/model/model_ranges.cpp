@@ -64,6 +64,7 @@ constexpr std::array kRanges = {
     PlacedRange{"/explain/balance/ripples/*/joint", kJoint},
     PlacedRange{"/explain/balance/torque_rms", kDivisor},
     PlacedRange{"/explain/balance/stiction", kPositive},
+    PlacedRange{"/explain/balance/drive_limit", kPositive},
     PlacedRange{"/explain/balance/day_variance", kPositive},
     PlacedRange{"/explain/balance/longest_repeat", kCount},
     PlacedRange{"/explain/balance/repeat_share", kShare},

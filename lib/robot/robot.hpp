@@ -62,6 +62,9 @@ struct Robot {
   /// Identified for each joint: ratio of true to logged torque, beside the units of the columns. Empty if all
   /// are 1.
   std::vector<double> torque_gain;
+  /// Identified for each joint: largest torque of its drive, N m or N, in the unit of the torque with its
+  /// gain; a command beyond it does not arrive. 0: no limit is known. Empty if none is.
+  std::vector<double> torque_limit;
   /// Identified for each joint: compliance of the gear between drive and link, rad/(N m) or m/N. Empty if all
   /// gears are rigid. The equations of motion of this library assume rigid gears.
   std::vector<double> gear_compliance;

@@ -239,6 +239,8 @@ Robot read_drives(const TomlTable& table, Robot robot) {
   };
   read("torque_delay_s", robot.torque_delay_s);
   read("torque_gain", robot.torque_gain);
+  read("torque_limit", robot.torque_limit);
+  check_signs(table, "torque_limit", robot.torque_limit, true);
   read("gear_compliance", robot.gear_compliance);
   return robot;
 }

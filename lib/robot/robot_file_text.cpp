@@ -129,7 +129,7 @@ std::string extra_torque_text(const Chain& chain, const std::string& prefix) {
 
 std::string drive_text(const Robot& robot) {
   return by_joint_text("torque_delay_s", robot.torque_delay_s) +
-         by_joint_text("torque_gain", robot.torque_gain) +
+         by_joint_text("torque_gain", robot.torque_gain) + by_joint_text("torque_limit", robot.torque_limit) +
          by_joint_text("gear_compliance", robot.gear_compliance);
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lib/simulate/drives.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/simulate/joint_list.hpp"
@@ -18,6 +20,7 @@ Drives::Drives(int joints, const DriveSpec& spec, Random random)
       offset_(or_all(spec.offset, joints, 0.0)),
       roughness_(or_all(spec.roughness, joints, 0.0)),
       memory_s_(or_all(spec.roughness_memory_s, joints, 0.03)),
+      limit_(or_all(spec.limit, joints, std::numeric_limits<double>::infinity())),
       rough_(joints, 0.0),
       random_(random) {
   for (int j = 0; j < joints; ++j)
@@ -25,8 +28,10 @@ Drives::Drives(int joints, const DriveSpec& spec, Random random)
 }
 
 void Drives::act(double length_s, JointVector& commanded) {
-  for (int j = 0; j < commanded.size(); ++j)
-    commanded[j] = (1.0 + gain_[j]) * commanded[j] + offset_[j] + mean_roughness(j, length_s);
+  for (int j = 0; j < commanded.size(); ++j) {
+    const double given = (1.0 + gain_[j]) * commanded[j] + offset_[j] + mean_roughness(j, length_s);
+    commanded[j] = std::clamp(given, -limit_[j], limit_[j]);
+  }
 }
 
 double Drives::mean_roughness(int j, double length_s) {

@@ -14,6 +14,7 @@ struct DriveSpec {
   std::vector<double> offset{};              ///< N m or N
   std::vector<double> roughness{};           ///< standard deviation of a random torque, N m or N
   std::vector<double> roughness_memory_s{};  ///< correlation time of the random torque; empty: 0.03 s
+  std::vector<double> limit{};               ///< largest acting torque, N m or N; empty: no limit
 };
 
 /// The torques that act on the joints. The random torque is an Ornstein-Uhlenbeck process.
@@ -27,7 +28,7 @@ class Drives {
  private:
   double mean_roughness(int j, double length_s);
 
-  std::vector<double> gain_, offset_, roughness_, memory_s_;
+  std::vector<double> gain_, offset_, roughness_, memory_s_, limit_;
   std::vector<double> rough_;  ///< random torque at present, N m or N
   Random random_;
 };

@@ -3,15 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "lib/core/random.hpp"
 #include "lib/robot/dynamics.hpp"
 #include "lib/robot/payload.hpp"
 #include "lib/robot/runge_kutta.hpp"
 #include "lib/simulate/joint_list.hpp"
+#include "lib/simulate/mobility.hpp"
 
 namespace faultline {
 namespace {
@@ -30,22 +29,6 @@ constexpr double kMostSubSteps = 10.0;
 constexpr double kHeldBodies = 1e-3;
 /// Sub-steps in that time above which holding the bodies costs less than moving them along.
 constexpr double kHoldingPays = 3.0;
-
-/// Returns the largest diagonal of M^-1 for each joint over some postures.
-JointVector mobility(const FastDynamics& dynamics) {
-  const int n = dynamics.joints();
-  Random random(1);
-  JointVector most = JointVector::Zero(n), q(n), bias;
-  const JointVector rest = JointVector::Zero(n);
-  JointMatrix inertia;
-  for (int k = 0; k < 16; ++k) {
-    for (int i = 0; i < n; ++i) q[i] = k ? random.uniform(-3.0, 3.0) : 0.0;
-    dynamics.inertia_and_bias(q, rest, inertia, bias);
-    const JointMatrix inverse = inertia.inverse();
-    most = most.cwiseMax(inverse.diagonal());
-  }
-  return most;
-}
 
 /// Returns a usual torque of each drive: gravity at q = 0 plus the torque for an acceleration of
 /// 10 rad/s^2 or m/s^2.
@@ -124,7 +107,7 @@ void Plant::choose_steps(Chain& chain) {
     f.width = std::max(
         f.width, drives[i] * (f.coulomb + f.load * usual[i]) * max_step_ / (kRateTimesStep * kMostSubSteps));
     chain.friction[i].width = f.width;
-    sliding = std::max(sliding, drives[i] * (f.viscous + std::abs(f.skew) + std::abs(f.bend) / f.bend_width));
+    sliding = std::max(sliding, drives[i] * sliding_slope(f));
     if (stop_low_.size() > 0) sliding = std::max(sliding, std::sqrt(links[i] * stop_stiffness_[i]));
     near_rest = std::max(near_rest, drives[i] * steepest(f, usual[i]));
   }

@@ -54,6 +54,7 @@ void check_drives(int joints, const DriveSpec& drives) {
   check_count(joints, drives.offset, "drives.offset");
   check_not_negative(joints, drives.roughness, "drives.roughness");
   check_positive(joints, drives.roughness_memory_s, "drives.roughness_memory_s");
+  check_positive(joints, drives.limit, "drives.limit");
   for (const double gain : drives.gain)
     if (!(gain > -1.0)) bad_value("drives.gain", fmt::format("expected shares above -1, found {}", gain));
 }

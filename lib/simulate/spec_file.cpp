@@ -119,7 +119,8 @@ SimulationSpec read_machine(const TomlTable& file, int joints, SimulationSpec sp
              {{"gain", drives.gain},
               {"offset", drives.offset},
               {"roughness", drives.roughness},
-              {"roughness_memory_s", drives.roughness_memory_s}});
+              {"roughness_memory_s", drives.roughness_memory_s},
+              {"limit", drives.limit}});
   read_lists(file.table("limits"), joints,
              {{"torque", spec.torque_limit},
               {"stop_low", spec.stops.low},

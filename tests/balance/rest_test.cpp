@@ -128,5 +128,42 @@ TEST(EndStop, AMovingJointIsHeldByNoEndStop) {
   EXPECT_EQ(first_stopped_s(on_grid(simulate_closed_form(of_day(0), run_of(31)))), -1.0);
 }
 
+constexpr double kLimit = 60.0;  // N m: of the drive of joint 1
+
+/// A day on which more is commanded than the drive of joint 1 gives.
+Log clipped_day(int day, const ClosedFormScara& robot) {
+  testing::ClosedFormRun run = run_of(day + 1);
+  run.clips_from_s = 0.0;
+  run.clip = {kLimit, 1e9, 1e9};
+  return simulate_closed_form(robot, run);
+}
+
+/// Learned from three such days.
+const BalanceModel& clipped_model() {
+  static const BalanceModel learned = [] {
+    std::vector<Log> days;
+    for (int day = 0; day < 3; ++day) days.push_back(clipped_day(day, of_day(day)));
+    return learned_from(days).model;
+  }();
+  return learned;
+}
+
+TEST(DriveLimit, IsFoundInHealthyLogsAndDoesNotBiasTheRobot) {
+  const ClosedFormScara truth;
+  const BalanceModel& m = clipped_model();
+  EXPECT_NEAR(m.drive_limit[0], kLimit, 0.02 * kLimit);
+  EXPECT_EQ(m.drive_limit[1], 0.0);
+  EXPECT_EQ(m.drive_limit[2], 0.0);
+  EXPECT_NEAR(m.theta[m.layout().coulomb(0)], truth.fc[0], 0.1 * truth.fc[0]);
+}
+
+TEST(DriveLimit, ACommandBeyondItIsNoFault) {
+  const UniformLog day = on_grid(clipped_day(11, of_day(1)));
+  EXPECT_TRUE(explain_faults(day, clipped_model(), evidence_limits({})).faults.empty());
+  BalanceModel without = clipped_model();
+  without.drive_limit.setZero();
+  EXPECT_FALSE(explain_faults(day, without, evidence_limits({})).faults.empty());
+}
+
 }  // namespace
 }  // namespace faultline

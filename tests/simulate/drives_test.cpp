@@ -30,6 +30,19 @@ TEST(Drives, GainAndOffsetAddToTheCommand) {
   EXPECT_DOUBLE_EQ(torque[1], -3.5);
 }
 
+TEST(Drives, GiveAtMostTheirLimit) {
+  Drives drives(2, {.gain = {0.1, 0.0}, .limit = {3.1, 5.0}}, Random(1));
+  JointVector torque(2);
+  torque << 3.0, -4.0;
+  drives.act(0.001, torque);
+  EXPECT_EQ(torque[0], 3.1);
+  EXPECT_EQ(torque[1], -4.0);
+  torque << -3.0, -7.0;
+  drives.act(0.001, torque);
+  EXPECT_EQ(torque[0], -3.1);
+  EXPECT_EQ(torque[1], -5.0);
+}
+
 /// Mean square of the roughness over steps of that length, and its product from step to step.
 std::pair<double, double> moments(double length_s, double memory_s) {
   Drives drives(1, {.roughness = {2.0}, .roughness_memory_s = {memory_s}}, Random(7));

@@ -43,6 +43,16 @@ time_s = 600)")
   EXPECT_EQ(machine.warm_up.time_s, (Numbers{600, 600, 600}));
 }
 
+TEST(SpecSections, DrivesAreRead) {
+  const DriveSpec drives = spec_with(R"(
+[drives]
+gain = [0.02, 0, 0]
+limit = [20, 10, 60])")
+                               .drives;
+  EXPECT_EQ(drives.gain, (Numbers{0.02, 0, 0}));
+  EXPECT_EQ(drives.limit, (Numbers{20, 10, 60}));
+}
+
 TEST(SpecSections, WorkPieceAndRecordingAreRead) {
   const SimulationSpec spec = spec_with(R"(
 [work_piece]

@@ -107,6 +107,21 @@ std::vector<Joint> resting_joints(const LogTally& tally, const Model& model) {
   return out;
 }
 
+/// Returns by joint the share of the torques that are at the limit of the drive; empty if no limit is known.
+std::vector<double> share_at_limit(const LogTally& tally, const std::vector<double>& limit) {
+  std::vector<double> out(limit.size(), 0.0);
+  for (const ChannelSummary& channel : tally.quality.channels)
+    for (std::size_t j = 0; j < limit.size() && channel.canonical; ++j) {
+      if (limit[j] == 0.0 || channel.values == 0 ||
+          channel.name != to_string(Channel{Quantity::tau, Joint::at(static_cast<int>(j))}))
+        continue;
+      const std::int64_t above = channel.max >= limit[j] ? channel.at_max : 0,
+                         below = channel.min <= -limit[j] ? channel.at_min : 0;
+      out[j] = static_cast<double>(above + below) / static_cast<double>(channel.values);
+    }
+  return out;
+}
+
 LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& model) {
   QualityOptions options;
   options.slides = sliding_joints(model.robot.chain);
@@ -122,6 +137,7 @@ LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& mod
   facts.issues = log.issues();
   facts.runs = log.identity().runs;
   facts.resting = resting_joints(tally, model);
+  facts.at_limit = share_at_limit(tally, model.robot.torque_limit);
   facts.unjudged = tally.unjudged.stretches();
   facts.rows_unjudged = facts.rows_used - facts.judgeable_rows + rows_lost(facts.issues);
   facts.is_whole = facts.rows_unjudged == 0 && quality.time.gaps == 0;

@@ -30,14 +30,14 @@ constexpr double kSlightRidge = 1e-9;  // relative, on the diagonal: columns tha
 constexpr std::array kLags{-1, 0, 1, 2};  // samples, tried for RowSetting::torque_lag
 constexpr std::array kTriedWidths{.003, .006, .01, .016, .025, .05};  // rad/s or m/s, of friction
 
-/// Returns the rows of the logs without lost ones and without the balances of resting joints that stick.
+/// Returns the rows of the logs without lost ones and without silent balances.
 std::vector<BalanceRows> rows_of(const std::vector<UniformLog>& logs, const RowSetting& setting,
                                  const BalanceModel& model) {
   std::vector<BalanceRows> out;
   const int n = model.joints();
   for (const UniformLog& log : logs) {
     BalanceRows rows = balance_rows(log, setting, model.rigid, {});
-    JointMask mask = sticking_rows(rows, model);
+    JointMask mask = silent_balances(rows, model);
     if (mask.size() == 0) mask.setConstant(rows.rows(), n, false);
     for (int k = 0; k < rows.rows(); ++k)
       if (rows.lost[k]) mask.row(k).setConstant(true);
@@ -52,7 +52,7 @@ void renew_friction(const std::vector<UniformLog>& logs, const RowSetting& setti
   const Eigen::Index coulomb = layout_of(model.rigid, setting).coulomb(j);
   for (std::size_t d = 0; d < logs.size(); ++d) {
     rows[d].column[j].col(coulomb) = friction_columns(logs[d], setting, j).col(1);
-    const JointMask mask = sticking_rows(rows[d], model);
+    const JointMask mask = silent_balances(rows[d], model);
     for (int k = 0; k < rows[d].rows(); ++k)
       if (rows[d].lost[k] || (mask.size() > 0 && mask(k, j))) rows[d].column[j](k, coulomb) = 0.0;
   }

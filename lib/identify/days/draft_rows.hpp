@@ -51,8 +51,8 @@ RowSetting draft_setting(const std::vector<UniformLog>& logs, double kernel_s, d
 Eigen::VectorXd static_friction(const std::vector<UniformLog>& logs, const BalanceModel& model);
 
 /// Chooses the lag of all torques, then the friction width of each joint, that minimise the residual of a
-/// rigid robot. Joints at rest that stick do not count. `model` has rigid columns, setting, top speeds and
-/// static friction.
+/// rigid robot. Silent balances do not count. `model` has rigid columns, setting, top speeds, static friction
+/// and limits of the drives.
 RowSetting with_chosen_lag_and_widths(const std::vector<UniformLog>& logs, const BalanceModel& model);
 
 /// Least squares without noise model, each joint divided by its residual `scale`; columns not `used` get 0.

@@ -11,6 +11,7 @@
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/day_arrow.hpp"
 #include "lib/identify/days/draft_rows.hpp"
+#include "lib/identify/days/drive_limits.hpp"
 #include "lib/identify/days/healthy_day.hpp"
 #include "lib/identify/days/row_scale.hpp"
 #include "lib/identify/parameter_space.hpp"
@@ -102,7 +103,7 @@ BalanceModel with_healthy_motion(const std::vector<UniformLog>& logs, BalanceMod
 /// Returns rows, setting and a first fit of the rigid robot. Load friction and coupled drives are used where
 /// `space` has them.
 DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& space,
-                     TorqueTiming torque_between_samples) {
+                     TorqueTiming torque_between_samples, const std::vector<double>& drive_limit) {
   const bool is_held = torque_between_samples == TorqueTiming::held;
   std::vector<UniformLog> uniform = uniform_logs(logs);
   const std::vector<bool> derived = derived_velocities(uniform);
@@ -122,13 +123,18 @@ DayDraft first_draft(std::span<LogSource* const> logs, const ParameterSpace& spa
     m.setting.drives.push_back({drive.along, drive.width});
   for (const UniformLog& log : uniform) draft.days.push_back({.log = log});
   m = with_healthy_motion(uniform, std::move(m));
-  m.stiction = VectorXd::Zero(m.joints());
+  m.stiction = m.drive_limit = VectorXd::Zero(m.joints());
   m.setting = with_chosen_lag_and_widths(uniform, m);
   m.stiction = static_friction(uniform, m);
-  if (!m.stiction.isZero(0.0)) m.setting = with_chosen_lag_and_widths(uniform, m);
+  m.drive_limit =
+      drive_limit.empty()
+          ? drive_limits(uniform, m)
+          : VectorXd(VectorXd::Map(drive_limit.data(), static_cast<Eigen::Index>(drive_limit.size())));
+  if (!m.stiction.isZero(0.0) || !m.drive_limit.isZero(0.0))
+    m.setting = with_chosen_lag_and_widths(uniform, m);
   draft = with_rows(std::move(draft));
   std::vector<BalanceRows> rows;
-  for (const HealthyDay& day : draft.days) rows.push_back(without_balances(day.rows, day.rows.at_rest));
+  for (const HealthyDay& day : draft.days) rows.push_back(without_balances(day.rows, day.rows.silent));
   draft.used = rigid_columns_used(m.rigid, m.layout());
   m.theta = plain_fit(rows, m.layout(), draft.used, m.torque_rms);
   for (int j = 0; j < m.joints(); ++j)
@@ -334,8 +340,8 @@ DayDraft with_unseen_noise(DayDraft draft, const std::vector<BalanceModel>& with
 }  // namespace
 
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
-                    TorqueTiming torque_between_samples) {
-  DayDraft draft = first_draft(logs, space, torque_between_samples);
+                    TorqueTiming torque_between_samples, const std::vector<double>& drive_limit) {
+  DayDraft draft = first_draft(logs, space, torque_between_samples, drive_limit);
   Eigen::VectorXd between = without_doubles(draft.model, variance_of(draft.model, kFirst));
   for (int round = 0; round < kFitRounds; ++round) {
     draft = with_terms_of_round(std::move(draft), round);

@@ -27,8 +27,10 @@ struct FittedDays {
 
 /// Estimates the robot, its differences from day to day and the noise of its rows from healthy logs (at least
 /// two, of one rate): a regression with mixed effects, in which the parameters of the robot are free and the
-/// effects of each day random (Laird and Ware 1982). `space` gives base parameters and lengths.
+/// effects of each day random (Laird and Ware 1982). `space` gives base parameters and lengths, `drive_limit`
+/// the limits of the drives to which the torques are cut (BalanceModel::drive_limit); without them they are
+/// estimated (drive_limits()).
 FittedDays fit_days(std::span<LogSource* const> logs, const ParameterSpace& space,
-                    TorqueTiming torque_between_samples);
+                    TorqueTiming torque_between_samples, const std::vector<double>& drive_limit = {});
 
 }  // namespace faultline

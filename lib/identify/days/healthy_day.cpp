@@ -11,7 +11,7 @@ DayDraft with_rows(DayDraft draft) {
   const BalanceModel& m = draft.model;
   for (HealthyDay& day : draft.days) {
     day.rows = balance_rows(day.log, m.setting, m.rigid, m.theta);
-    day.rows.at_rest = sticking_rows(day.rows, m);
+    day.rows.silent = silent_balances(day.rows, m);
     if (day.piece.size() == 0) day.piece.setZero(day.rows.rows(), m.joints());
   }
   return draft;

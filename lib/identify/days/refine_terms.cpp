@@ -33,7 +33,7 @@ std::vector<int> rows_of_friction(const HealthyDay& day, const BalanceModel& m, 
   const std::vector<bool> near = rows_near_change(day, m);
   std::vector<int> rows;
   for (int k = 0; k < day.rows.rows(); ++k)
-    if (!day.rows.lost[k] && !day.rows.rests(k, j) && (near.empty() || !near[k])) rows.push_back(k);
+    if (!day.rows.lost[k] && !day.rows.is_silent(k, j) && (near.empty() || !near[k])) rows.push_back(k);
   return rows;
 }
 

@@ -43,7 +43,7 @@ std::vector<double> masses_of(const HealthyDay& day, const BalanceModel& m, cons
     for (int j = 0; j < m.joints(); ++j) {
       if (!carries_weight(m.rigid, j)) continue;
       for (int k = w * kPieceRows; k < (w + 1) * kPieceRows; ++k) {
-        if (day.rows.rests(k, j)) continue;
+        if (day.rows.is_silent(k, j)) continue;
         product += day.tip(k, j) * left(k, j);
         square += day.tip(k, j) * day.tip(k, j);
         ++rows;
@@ -90,7 +90,7 @@ double carried_kg(const DayDraft& draft) {
 DayDraft with_first_piece(DayDraft draft) {
   std::vector<double> low, step, ratio;
   std::vector<BalanceRows> rows;
-  for (const HealthyDay& day : draft.days) rows.push_back(without_balances(day.rows, day.rows.at_rest));
+  for (const HealthyDay& day : draft.days) rows.push_back(without_balances(day.rows, day.rows.silent));
   const VectorXd theta = plain_fit(rows, draft.model.layout(), draft.used, draft.model.torque_rms);
   for (const HealthyDay& day : draft.days) {
     std::vector<double> masses = masses_of(day, draft.model, theta);
@@ -120,7 +120,7 @@ DayDraft with_piece_paths(DayDraft draft, bool is_rough) {
   for (const HealthyDay& day : draft.days) {
     left.push_back(day.rows.torque - torque_of(day.rows, m.theta) - effect_torque(day));
     for (int k = 0; k < day.rows.rows(); ++k)
-      if (!day.rows.rests(k, m.joints() - 1)) size.push_back(std::abs(left.back()(k, m.joints() - 1)));
+      if (!day.rows.is_silent(k, m.joints() - 1)) size.push_back(std::abs(left.back()(k, m.joints() - 1)));
   }
   const double weight = m.piece_kg * kWeight, noise = kNormalSpread * upper_median(std::move(size));
   const double std =
@@ -131,14 +131,14 @@ DayDraft with_piece_paths(DayDraft draft, bool is_rough) {
     MatrixXd deviation = MatrixXd::Constant(day.rows.rows(), m.joints(), kCountsForNothing);
     for (int j = 0; j < m.joints(); ++j)
       for (int k = 0; k < day.rows.rows(); ++k)
-        if (carries_weight(m.rigid, j) && !day.rows.rests(k, j)) deviation(k, j) = std;
+        if (carries_weight(m.rigid, j) && !day.rows.is_silent(k, j)) deviation(k, j) = std;
     day.path = piece_path(left[d], m.piece_kg * day.tip, deviation);
     day.piece.setZero();
     for (int k = 0; k < day.rows.rows(); ++k) {
       if (day.path[k] == 0) continue;
       day.piece.row(k) = m.piece_kg * day.tip.row(k);
       for (int j = 0; j < m.joints(); ++j) {
-        if (!carries_weight(m.rigid, j) || day.rows.rests(k, j)) continue;
+        if (!carries_weight(m.rigid, j) || day.rows.is_silent(k, j)) continue;
         product += day.tip(k, j) * left[d](k, j);
         square += day.tip(k, j) * day.tip(k, j);
       }

@@ -6,8 +6,8 @@
 
 namespace faultline {
 
-DelayedTorque::DelayedTorque(std::vector<double> delay_s, std::vector<double> gain)
-    : delay_s_(std::move(delay_s)), gain_(std::move(gain)) {
+DelayedTorque::DelayedTorque(std::vector<double> delay_s, std::vector<double> gain, std::vector<double> limit)
+    : delay_s_(std::move(delay_s)), gain_(std::move(gain)), limit_(std::move(limit)) {
   for (const double delay : delay_s_) {
     ahead_s_ = std::max(ahead_s_, -delay);
     behind_s_ = std::max(behind_s_, delay);
@@ -52,6 +52,9 @@ bool DelayedTorque::next(LogSource& source, Log& segment) {
       segment.tau[j][k] = torque_at(static_cast<int>(j), segment.time[k] - delay_s_[j]);
   for (std::size_t j = 0; j < std::min(segment.tau.size(), gain_.size()); ++j)
     for (double& tau : segment.tau[j]) tau *= gain_[j];
+  for (std::size_t j = 0; j < std::min(segment.tau.size(), limit_.size()); ++j)
+    if (limit_[j] > 0.0)
+      for (double& tau : segment.tau[j]) tau = std::clamp(tau, -limit_[j], limit_[j]);
   const double oldest = segment.time.back() - behind_s_;
   const auto kept = std::lower_bound(time_.begin(), time_.end(), oldest);
   const auto gone = static_cast<std::size_t>(std::max<std::ptrdiff_t>(kept - time_.begin() - 2, 0));

@@ -9,11 +9,11 @@ namespace faultline {
 
 /// Compensates delays of torques, which act later (or earlier) than they are logged: the torque of joint j at
 /// time t is the logged one at t - delay_s[j], interpolated linearly between its samples and held constant
-/// before the first and after the last one. Torques are multiplied by `gain`, if given. All other channels
-/// pass unchanged.
+/// before the first and after the last one. Torques are multiplied by `gain`, if given, then cut to `limit`,
+/// if that is given and not 0. All other channels pass unchanged.
 class DelayedTorque {
  public:
-  DelayedTorque(std::vector<double> delay_s, std::vector<double> gain = {});
+  DelayedTorque(std::vector<double> delay_s, std::vector<double> gain = {}, std::vector<double> limit = {});
 
   bool next(LogSource& source, Log& segment);
 
@@ -21,10 +21,10 @@ class DelayedTorque {
   bool fill(LogSource& source);
   double torque_at(int j, double t);
 
-  std::vector<double> delay_s_, gain_;  ///< by joint; further joints have no delay and gain 1
-  double ahead_s_ = 0.0;                ///< s, how far the latest torque needed lies after its row
-  double behind_s_ = 0.0;               ///< s, how far the earliest one lies before it
-  Log rows_;                            ///< rows not handed out yet
+  std::vector<double> delay_s_, gain_, limit_;  ///< by joint; further joints have no delay, gain 1, no limit
+  double ahead_s_ = 0.0;                        ///< s, how far the latest torque needed lies after its row
+  double behind_s_ = 0.0;                       ///< s, how far the earliest one lies before it
+  Log rows_;                                    ///< rows not handed out yet
   bool at_end_ = false;
   std::vector<double> time_;  ///< times of the stored torques
   JointSignals tau_;

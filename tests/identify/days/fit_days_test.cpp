@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +24,7 @@ struct OneJoint {
   double drive_inertia = 0.0, link_inertia = 1.2;  ///< kg m^2; without a drive's, the gear is rigid
   double coulomb = 3.0;                            ///< N m; viscous friction: a third of it a rad/s
   double encoder_step = 0.0;  ///< rad; above 0, the velocity is the difference of its positions
+  double limit = 1e9;         ///< N m: more torque does not arrive
 };
 
 double rounded(double q, double step) { return step > 0.0 ? step * std::round(q / step) : q; }
@@ -62,12 +64,13 @@ Log day(const OneJoint& joint, double period_s, std::uint64_t seed) {
     const double measured = dq[0] + 2e-3 * random.normal();
     log.dq[0].push_back(joint.encoder_step > 0.0 ? (log.q[0].back() - before) / period_s : measured);
     log.tau[0].push_back(tau);
+    const double given = std::clamp(tau, -joint.limit, joint.limit);
     for (int i = 0; i < std::lround(period_s / kStep_s); ++i) {
       if (is_rigid) {
-        dq[0] += kStep_s * (tau - friction(joint.coulomb, dq[0])) / inertia;
+        dq[0] += kStep_s * (given - friction(joint.coulomb, dq[0])) / inertia;
       } else {
         const double spring = kStiffness * (q[0] - q[1]) + 2.0 * (dq[0] - dq[1]);
-        dq[0] += kStep_s * (tau - spring) / joint.drive_inertia;
+        dq[0] += kStep_s * (given - spring) / joint.drive_inertia;
         dq[1] += kStep_s * (spring - friction(joint.coulomb, dq[1])) / joint.link_inertia;
       }
       for (int k = 0; k < 2; ++k) q[k] += kStep_s * dq[k];
@@ -106,6 +109,19 @@ TEST(FitDays, ACoarseEncoderDoesNotMakeTheInertiaSmaller) {
   EXPECT_GT(model.setting.kernel_s, 0.02);
   EXPECT_NEAR(model.theta[0], 1.2, 0.02);
   EXPECT_NEAR(model.theta[model.layout().coulomb(0)], 3.0, 0.1);
+}
+
+TEST(FitDays, ADriveThatGivesNoMoreTorqueHasItsLimit) {
+  const BalanceModel model = fitted({.limit = 14.0}, 0.002);
+  EXPECT_NEAR(model.drive_limit[0], 14.0, 0.3);
+  EXPECT_NEAR(model.theta[0], 1.2, 0.02);
+  EXPECT_NEAR(model.theta[model.layout().coulomb(0)], 3.0, 0.1);
+}
+
+TEST(FitDays, DrivesThatGiveAllTorqueHaveNoLimit) {
+  EXPECT_EQ(fitted({}, 0.002).drive_limit[0], 0.0);
+  EXPECT_EQ(fitted({.drive_inertia = 0.05}, 0.002).drive_limit[0], 0.0) << "a gear that gives way";
+  for (int j = 0; j < 3; ++j) EXPECT_EQ(testing::scara_model().drive_limit[j], 0.0);
 }
 
 TEST(FitDays, LoadFrictionIsEstimatedIfTheIdentificationHasIt) {

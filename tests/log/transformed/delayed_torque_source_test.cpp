@@ -57,6 +57,14 @@ TEST(DelayedTorqueSource, GainsMultiplyTheTorqueOfTheirJoints) {
   for (int k = 0; k < 50; ++k) EXPECT_EQ(log.tau[1][k], 1.25 * raw.tau[1][k]);
 }
 
+TEST(DelayedTorqueSource, TorquesAreCutToTheLimitOfTheirDriveAfterTheGain) {
+  MemorySource source(ramp(50), "ramp", 7);
+  DelayedTorqueSource limited(source, {{}, {2.0, 1.0}, {0.5, 0.0}});
+  const Log log = read_all(limited), raw = ramp(50);
+  for (int k = 0; k < 50; ++k) EXPECT_EQ(log.tau[0][k], std::min(2.0 * raw.tau[0][k], 0.5));
+  EXPECT_EQ(log.tau[1], raw.tau[1]) << "0 is no limit";
+}
+
 TEST(DelayedTorqueSource, RewindGivesTheSameRowsAgain) {
   MemorySource source(ramp(100), "ramp", 9);
   DelayedTorqueSource late(source, {{0.006, -0.003}});
