@@ -22,9 +22,10 @@ constexpr int kFewestBeyond = 20;     // rows beyond a limit
 constexpr int kTried = 60;            // limits, at equal steps of the rank of the torque
 constexpr double kNearFirst = 0.8;  // least ratio of the limit and the smallest command beyond it, either way
 constexpr double kMostLeft = 0.03;  // squared deviation from the limit, over that of the excess from its mean
-constexpr double kLeastBeyond = 4.0;  // times the residual below the limit: excess of the command, rms
-constexpr double kClearLimit = 20.0;  // nats over a robot without limit, from rows that are not independent
-constexpr double kLimitRidge = 1e-9;  // relative, on the diagonal: columns that the motions do not separate
+constexpr double kLeastBeyond = 4.0;   // times the residual below the limit: excess of the command, rms
+constexpr double kClearLimit = 20.0;   // nats over a robot without limit, from rows that are not independent
+constexpr double kLimitRidge = 1e-9;   // relative, on the diagonal: columns that the motions do not separate
+constexpr double kZeroColumn = 1e-30;  // on the diagonal: keeps columns of zeros regular
 
 /// The balances of one joint that show something, by ascending absolute torque.
 struct JointBalances {
@@ -72,7 +73,7 @@ struct Sums {
   VectorXd solution() const {
     MatrixXd ridged = square;
     ridged.diagonal() *= 1.0 + kLimitRidge;
-    ridged.diagonal().array() += 1e-30;  // columns of zeros
+    ridged.diagonal().array() += kZeroColumn;
     return ridged.ldlt().solve(product);
   }
   double left(const VectorXd& theta) const {
