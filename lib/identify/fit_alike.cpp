@@ -284,19 +284,6 @@ Robot with_drives(Robot robot, const Gathered& gathered, const TorqueFit& torque
   return robot;
 }
 
-/// Returns the issues without those of torques that are cut to the limit of their drive, which is known.
-Issues without_known_limits(const Issues& issues, const Robot& robot) {
-  Issues out;
-  for (const Issue& issue : issues.all()) {
-    bool is_known = false;
-    for (std::size_t j = 0; j < robot.torque_limit.size(); ++j)
-      is_known = is_known || (robot.torque_limit[j] > 0.0 && issue.code == "torque_limit" &&
-                              issue.channel == to_string({Quantity::tau, Joint::at(static_cast<int>(j))}));
-    if (!is_known) out.add(issue);
-  }
-  return out;
-}
-
 }  // namespace
 
 AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const IdentifyOptions& options,
@@ -308,7 +295,8 @@ AlikeFit fit_alike(std::span<LogSource* const> logs, const Robot& robot, const I
   Gathered read = gather(logs, id.space, kShortestWindow_s, kMostWindows, progress);
   if (robot.log.torque == TorqueMeaning::current) read = with_motor_constants(logs, std::move(read));
   id.logs = std::move(read.logs);
-  id.issues = without_known_limits(read.issues, robot);
+  id.issues = read.issues;
+  for (const LogSurvey& survey : read.surveys) id.issues.merge(survey_issues(survey, robot.torque_limit));
   DraftedModel model = draft_model(logs, std::move(read), options, id, id.issues);
   const Gathered& gathered = model.gathered;
   const std::vector<Joint>& still = gathered.windows.still;

@@ -142,7 +142,6 @@ Gathered gather(std::span<LogSource* const> logs, const ParameterSpace& space, d
     if (progress) progress("reading", static_cast<double>(i) / static_cast<double>(logs.size()));
     out.surveys.push_back(survey_log(*logs[i], space.joints()));
     out.issues.merge(logs[i]->issues());
-    out.issues.merge(survey_issues(out.surveys.back()));
     period_s = std::max(period_s, out.surveys.back().summary.period_s);
   }
   out.left_out.assign(logs.size(), false);

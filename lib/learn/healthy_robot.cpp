@@ -11,7 +11,9 @@
 #include "lib/core/parallel.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/identify/days/fit_coarse_days.hpp"
+#include "lib/learn/work_pieces.hpp"
 #include "lib/log/log_source.hpp"
+#include "lib/log/transformed/selected_rows_source.hpp"
 
 namespace faultline {
 namespace {
@@ -19,9 +21,6 @@ namespace {
 constexpr double kFirst = 0.4;  // share of the work that is done after the first identification
 constexpr double kFitted = 0.6, kSecond = 0.8;  // the same before and after a second identification
 constexpr int kDaysOfOneLog = 3;                // pieces of a single log that count as days
-constexpr double kFewestOfAll = 0.15;       // share of the rows: with less, the robot is identified from all
-constexpr std::int64_t kFewestRows = 1000;  // rows of all logs together: fewer do not identify a robot
-constexpr double kSpare_s = 0.05;           // margin between a change of the level and the rows used
 
 /// Returns the part of the identification that a model keeps to document its quality.
 Identification without_state(Identification identification) {
@@ -52,7 +51,7 @@ Model identified_model(const Identification& identification) {
 }
 
 /// Returns what converts the torques of logs opened with one robot to those of another robot.
-DelayedTorque conversion_of(const Robot& opened_with, const Robot& robot) {
+TorqueConversion conversion_of(const Robot& opened_with, const Robot& robot) {
   std::vector<double> delay_s = robot.torque_delay_s, gain = robot.torque_gain;
   delay_s.resize(robot.joints(), 0.0);
   gain.resize(robot.joints(), 1.0);
@@ -63,10 +62,10 @@ DelayedTorque conversion_of(const Robot& opened_with, const Robot& robot) {
 }
 
 /// Returns the logs that were not left out, with delay and gain of torques compensated; `logs` outlive them.
-std::deque<DelayedTorqueSource> compensated_logs(std::span<LogSource* const> logs,
-                                                 const DelayedTorque& conversion,
-                                                 const std::vector<IdentifiedLog>& identified) {
-  std::deque<DelayedTorqueSource> out;
+std::deque<ConvertedTorqueSource> compensated_logs(std::span<LogSource* const> logs,
+                                                   const TorqueConversion& conversion,
+                                                   const std::vector<IdentifiedLog>& identified) {
+  std::deque<ConvertedTorqueSource> out;
   for (std::size_t i = 0; i < logs.size(); ++i)
     if (!identified[i].left_out) out.emplace_back(*logs[i], conversion);
   return out;
@@ -140,51 +139,6 @@ void take_rows(HealthyRobot& robot, FittedDays fit) {
   for (BalanceModel& model : fit.without) robot.without.emplace_back(std::move(model));
 }
 
-/// A time range without a work piece.
-struct EmptyTimes {
-  double begin_s = 0.0, end_s = 0.0;
-};
-
-std::vector<EmptyTimes> empty_times(const PieceTimes& piece) {
-  std::vector<EmptyTimes> out;
-  const auto rows = static_cast<int>(piece.path.size());
-  for (int k = 0; k < rows; ++k) {
-    if (piece.path[k] != 0) continue;
-    const int first = k;
-    while (k + 1 < rows && piece.path[k + 1] == 0) ++k;
-    out.push_back({piece.time_s[first] + (first > 0 ? kSpare_s : -kSpare_s),
-                   piece.time_s[k] + (k + 1 < rows ? -kSpare_s : kSpare_s)});
-  }
-  return out;
-}
-
-/// The number of rows of a log, and its rows without a work piece.
-struct EmptyRows {
-  std::int64_t all = 0;
-  std::vector<RowRange> empty;
-};
-
-EmptyRows rows_within(LogSource& log, const std::vector<EmptyTimes>& times) {
-  EmptyRows out;
-  std::size_t next = 0;
-  bool is_open = false;
-  log.rewind();
-  for (Log segment; log.next(segment);)
-    for (int k = 0; k < segment.rows(); ++k, ++out.all) {
-      const double t = segment.time[k];
-      while (next < times.size() && t > times[next].end_s) {
-        ++next;
-        is_open = false;
-      }
-      const bool is_empty = next < times.size() && t >= times[next].begin_s;
-      if (!is_empty) continue;
-      if (!is_open) out.empty.push_back({out.all, out.all});
-      is_open = true;
-      out.empty.back().end = out.all + 1;
-    }
-  return out;
-}
-
 /// Returns the robot that opened the logs with the limits of the drives that a first fit found.
 Robot with_drive_limits(Robot robot, const HealthyRobot& first, const BalanceModel& fit) {
   if (!robot.torque_limit.empty() || fit.drive_limit.isZero(0.0)) return robot;
@@ -196,11 +150,11 @@ Robot with_drive_limits(Robot robot, const HealthyRobot& first, const BalanceMod
 }
 
 /// Returns the logs with their torques cut to the limits of the drives.
-std::deque<DelayedTorqueSource> within_limits(std::span<LogSource* const> logs, const Robot& robot) {
-  std::deque<DelayedTorqueSource> out;
+std::deque<ConvertedTorqueSource> within_limits(std::span<LogSource* const> logs, const Robot& robot) {
+  std::deque<ConvertedTorqueSource> out;
   for (LogSource* log : logs) {
     log->rewind();
-    out.emplace_back(*log, DelayedTorque({}, {}, robot.torque_limit));
+    out.emplace_back(*log, TorqueConversion({}, {}, robot.torque_limit));
   }
   return out;
 }
@@ -247,22 +201,6 @@ void set_days(HealthyRobot& robot) {
 
 }  // namespace
 
-std::vector<std::vector<RowRange>> rows_without_work_piece(std::span<LogSource* const> logs,
-                                                           const FittedDays& days) {
-  if (!(days.model.piece_kg > 0.0)) return {};
-  std::vector<std::vector<RowRange>> out;
-  std::int64_t all = 0, without_piece = 0;
-  for (std::size_t i = 0; i < logs.size(); ++i) {
-    EmptyRows rows = rows_within(*logs[i], empty_times(days.pieces[i]));
-    all += rows.all;
-    for (const RowRange& range : rows.empty) without_piece += range.end - range.begin;
-    out.push_back(std::move(rows.empty));
-  }
-  const bool enough = without_piece >= kFewestRows &&
-                      static_cast<double>(without_piece) >= kFewestOfAll * static_cast<double>(all);
-  return enough ? out : std::vector<std::vector<RowRange>>{};
-}
-
 RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days) {
   if (std::holds_alternative<BalanceModel>(robot.model.explain.robot)) return fitted_days(robot, days).model;
   return fit_coarse_days(days, robot.model.robot, robot.identification.space,
@@ -285,7 +223,7 @@ HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
   }
   FittedDays fit = fitted_days(first, first.days);
   const Robot limited = with_drive_limits(robot, first, fit.model);
-  std::deque<DelayedTorqueSource> cut = within_limits(logs, limited);
+  std::deque<ConvertedTorqueSource> cut = within_limits(logs, limited);
   std::vector<LogSource*> sources = pointers(cut);
   std::deque<SelectedRowsSource> empty;
   if (robot.payloads.empty()) empty = without_work_piece(sources, first, fit);

@@ -11,8 +11,7 @@
 #include "lib/identify/identification.hpp"
 #include "lib/identify/identify.hpp"
 #include "lib/log/log_source.hpp"
-#include "lib/log/transformed/delayed_torque_source.hpp"
-#include "lib/log/transformed/selected_rows_source.hpp"
+#include "lib/log/transformed/converted_torque_source.hpp"
 #include "lib/model/model.hpp"
 #include "lib/robot/robot.hpp"
 
@@ -28,9 +27,10 @@ std::vector<LogSource*> pointers(std::deque<Source>& logs) {
 /// A robot learned from its healthy logs, before limits and faults are.
 struct HealthyRobot {
   Identification identification;
-  std::vector<IdentifiedLog> given;                 ///< all logs, as first identified
-  DelayedTorque conversion{std::vector<double>{}};  ///< of logs opened with the robot as given to its torques
-  std::deque<DelayedTorqueSource> logs;             ///< those not left out
+  std::vector<IdentifiedLog> given;  ///< all logs, as first identified
+  TorqueConversion conversion{
+      std::vector<double>{}};                       ///< of logs opened with the robot as given to its torques
+  std::deque<ConvertedTorqueSource> logs;           ///< those not left out
   std::vector<LogSource*> days;                     ///< the same; a single log is cut into several days
   std::vector<std::unique_ptr<LogSource>> parts{};  ///< of a single log
   Model model;                                      ///< robot, identification, motion, rows
@@ -42,12 +42,6 @@ struct HealthyRobot {
 /// they do not suffice.
 HealthyRobot healthy_robot(std::span<LogSource* const> logs, const Robot& robot,
                            const IdentifyOptions& options, const Progress& progress);
-
-/// Returns by log the rows without a work piece, since one that is carried half of the time shifts masses and
-/// friction of a robot identified from all rows. Empty if these rows are too few for an identification, or no
-/// work piece comes and goes. `logs` are those that `days` were fitted to. Rewinds them.
-std::vector<std::vector<RowRange>> rows_without_work_piece(std::span<LogSource* const> logs,
-                                                           const FittedDays& days);
 
 /// Learns the rows from some of the robot's days.
 RobotRows rows_of(const HealthyRobot& robot, const std::vector<LogSource*>& days);

@@ -100,11 +100,11 @@ std::vector<ModelSource> sources_of(const std::vector<IdentifiedLog>& healthy,
 /// chance with a probability of at most exp(-t) (Wald, 1945), so x nats more divide that rate by exp(x).
 double limit_shift(double alarms_per_hour) { return elementary::log(kUsualAlarmsPerHour / alarms_per_hour); }
 
-std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const DelayedTorque& conversion,
+std::vector<MonitoredRun> monitored(std::span<const LabelledLog> labelled, const TorqueConversion& conversion,
                                     const Model& model) {
   std::vector<MonitoredRun> runs;
   for (const LabelledLog& entry : labelled) {
-    DelayedTorqueSource log(*entry.log, conversion);
+    ConvertedTorqueSource log(*entry.log, conversion);
     log.rewind();
     runs.push_back({.label = entry.label,
                     .onset_s = entry.onset_s,
@@ -136,7 +136,7 @@ TwinStudy joined(TwinStudy a, TwinStudy b) {
 
 /// Trains the networks and fills the case base with simulated faults of the identified robot, and validates
 /// them on runs that were not used in training.
-void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const DelayedTorque& conversion,
+void learn_from_twin(Learned& out, std::span<const LabelledLog> labelled, const TorqueConversion& conversion,
                      const std::vector<UniformLog>& days, const LearnOptions& options,
                      const Progress& progress) {
   Model& model = out.model;

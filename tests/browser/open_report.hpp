@@ -10,6 +10,7 @@
 #include "tests/report/example_details.hpp"
 #include "tests/support/chromium.hpp"
 #include "tests/support/skip_unless_installed.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #define SKIP_WITHOUT_CHROMIUM() SKIP_UNLESS_INSTALLED(!chromium_program().empty(), "Chromium is missing")
 

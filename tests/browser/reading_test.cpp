@@ -11,6 +11,7 @@
 #include "tests/support/chromium.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/skip_unless_installed.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
 namespace {

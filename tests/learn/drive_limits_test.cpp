@@ -49,7 +49,7 @@ Learned learned_with(const SimulationSpec& spec) {
 /// Diagnoses the log as it is opened for the robot of the model: cut to the limits of the drives.
 Diagnosis diagnosed(const Learned& learned, Log log) {
   MemorySource source(std::move(log), "run.csv");
-  DelayedTorqueSource opened(source, {{}, {}, learned.model.robot.torque_limit});
+  ConvertedTorqueSource opened(source, {{}, {}, learned.model.robot.torque_limit});
   return diagnose(opened, learned.model, learned.cases, {});
 }
 

@@ -7,6 +7,7 @@
 
 #include "lib/identify/days/fit_days.hpp"
 #include "lib/learn/consistent_robot.hpp"
+#include "lib/learn/work_pieces.hpp"
 #include "tests/learn/small_robot.hpp"
 #include "tests/support/rrp_runs.hpp"
 

@@ -10,8 +10,12 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <stdexcept>
 #include <thread>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
 namespace {
@@ -56,34 +60,42 @@ std::string chromium_program() {
   return "";
 }
 
-BrowserPage::BrowserPage(const BrowserOptions& options) {
-  start(options);
-  const Json target = call("Target.createTarget", {{"url", "about:blank"}});
-  session_ = call("Target.attachToTarget", {{"targetId", target.at("targetId")}, {"flatten", true}})
-                 .at("sessionId")
-                 .get<std::string>();
-  for (const char* domain : {"Page.enable", "Runtime.enable", "Log.enable", "Network.enable"}) call(domain);
-  resize(options.width, options.height);
-  call("Emulation.setScriptExecutionDisabled", {{"value", !options.script}});
-  prefer_dark(options.dark);
-}
+/// A headless Chromium, driven over a pipe by the DevTools protocol.
+class Browser {
+ public:
+  Browser();
+  ~Browser();
+  Browser(const Browser&) = delete;
+  Browser& operator=(const Browser&) = delete;
 
-void BrowserPage::resize(int width, int height) {
-  call("Emulation.setDeviceMetricsOverride",
-       {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
-}
+  /// Returns the answer to a command of a page (`session`; empty: of the browser), and hands the events that
+  /// come before it to their pages.
+  Json call(const std::string& session, const std::string& method, const Json& parameters = Json::object());
+  /// Waits for one message, which must be an event, and hands it to its page.
+  void wait_for_event() { dispatch(read_message()); }
 
-void BrowserPage::prefer_dark(bool dark) {
-  const Json scheme = {{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}};
-  call("Emulation.setEmulatedMedia", {{"features", Json::array({scheme})}});
-}
+  /// By session: what takes the events of a page.
+  std::map<std::string, std::function<void(const Json&)>> listeners;
 
-void BrowserPage::start(const BrowserOptions& options) {
+  bool has_ended() const { return has_ended_; }
+
+ private:
+  [[noreturn]] void end(const char* why);
+  Json read_message();
+  void dispatch(const Json& message);
+
+  TemporaryFolder profile_;
+  int process_ = -1;
+  int to_browser_ = -1, from_browser_ = -1;
+  int last_id_ = 0;
+  bool has_ended_ = false;
+  std::string unread_;
+};
+
+Browser::Browser() {
   std::array<int, 2> commands{}, answers{};
   if (pipe2(commands.data(), O_CLOEXEC) != 0 || pipe2(answers.data(), O_CLOEXEC) != 0)
     throw std::runtime_error("no pipe");
-  const std::string size =
-      "--window-size=" + std::to_string(options.width) + "," + std::to_string(options.height);
   const std::vector<std::string> arguments = {chromium_program(),
                                               "--headless=new",
                                               "--no-sandbox",
@@ -94,7 +106,6 @@ void BrowserPage::start(const BrowserOptions& options) {
                                               "--disable-extensions",
                                               "--disable-dev-shm-usage",
                                               "--remote-debugging-pipe",
-                                              size,
                                               "--user-data-dir=" + profile_.path().string()};
   process_ = fork();
   if (process_ == 0) become_browser(arguments, commands[0], answers[1]);
@@ -104,7 +115,7 @@ void BrowserPage::start(const BrowserOptions& options) {
   from_browser_ = answers[0];
 }
 
-BrowserPage::~BrowserPage() {
+Browser::~Browser() {
   close(to_browser_);  // the browser ends when its pipe does
   close(from_browser_);
   int status = 0;
@@ -114,19 +125,96 @@ BrowserPage::~BrowserPage() {
   waitpid(process_, &status, 0);
 }
 
-Json BrowserPage::read_message() {
-  for (std::size_t end; (end = unread_.find('\0')) == std::string::npos;) {
+void Browser::end(const char* why) {
+  has_ended_ = true;
+  throw std::runtime_error(why);
+}
+
+Json Browser::read_message() {
+  for (std::size_t end_of_message; (end_of_message = unread_.find('\0')) == std::string::npos;) {
     pollfd waiting{from_browser_, POLLIN, 0};
-    if (poll(&waiting, 1, kTimeout_ms) <= 0) throw std::runtime_error("Chromium does not answer");
+    if (poll(&waiting, 1, kTimeout_ms) <= 0) end("Chromium does not answer");
     std::array<char, 65536> buffer{};
     const ssize_t count = read(from_browser_, buffer.data(), buffer.size());
-    if (count <= 0) throw std::runtime_error("Chromium ended");
+    if (count <= 0) end("Chromium ended");
     unread_.append(buffer.data(), static_cast<std::size_t>(count));
   }
-  const std::size_t end = unread_.find('\0');
-  Json message = Json::parse(unread_.substr(0, end));
-  unread_.erase(0, end + 1);
+  const std::size_t end_of_message = unread_.find('\0');
+  Json message = Json::parse(unread_.substr(0, end_of_message));
+  unread_.erase(0, end_of_message + 1);
   return message;
+}
+
+void Browser::dispatch(const Json& message) {
+  const auto listener = listeners.find(message.value("sessionId", ""));
+  if (listener != listeners.end()) listener->second(message);
+}
+
+Json Browser::call(const std::string& session, const std::string& method, const Json& parameters) {
+  Json command = {{"id", ++last_id_}, {"method", method}, {"params", parameters}};
+  if (!session.empty()) command["sessionId"] = session;
+  const std::string text = command.dump() + '\0';
+  for (std::size_t sent = 0; sent < text.size();) {
+    const ssize_t count = write(to_browser_, text.data() + sent, text.size() - sent);
+    if (count <= 0) end("Chromium ended");
+    sent += static_cast<std::size_t>(count);
+  }
+  for (;;) {
+    Json message = read_message();
+    if (message.value("id", 0) != last_id_) {
+      dispatch(message);
+      continue;
+    }
+    if (message.contains("error")) throw std::runtime_error(method + ": " + message["error"].dump());
+    return message.at("result");
+  }
+}
+
+namespace {
+
+/// Returns the browser of this process, started anew if it has ended.
+std::shared_ptr<Browser> shared_browser() {
+  static std::shared_ptr<Browser> browser;
+  if (!browser || browser->has_ended()) browser = std::make_shared<Browser>();
+  return browser;
+}
+
+}  // namespace
+
+BrowserPage::BrowserPage(const BrowserOptions& options) : browser_(shared_browser()) {
+  context_ = browser_->call("", "Target.createBrowserContext").at("browserContextId").get<std::string>();
+  target_ = browser_
+                ->call("", "Target.createTarget",
+                       {{"url", "about:blank"}, {"browserContextId", context_}, {"newWindow", true}})
+                .at("targetId")
+                .get<std::string>();
+  session_ = browser_->call("", "Target.attachToTarget", {{"targetId", target_}, {"flatten", true}})
+                 .at("sessionId")
+                 .get<std::string>();
+  browser_->listeners[session_] = [this](const Json& event) { take_event(event); };
+  for (const char* domain : {"Page.enable", "Runtime.enable", "Log.enable", "Network.enable"}) call(domain);
+  resize(options.width, options.height);
+  call("Emulation.setScriptExecutionDisabled", {{"value", !options.script}});
+  prefer_dark(options.dark);
+}
+
+BrowserPage::~BrowserPage() {
+  browser_->listeners.erase(session_);
+  if (browser_->has_ended()) return;
+  try {
+    browser_->call("", "Target.disposeBrowserContext", {{"browserContextId", context_}});
+  } catch (const std::exception&) {  // the test has its result
+  }
+}
+
+void BrowserPage::resize(int width, int height) {
+  call("Emulation.setDeviceMetricsOverride",
+       {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
+}
+
+void BrowserPage::prefer_dark(bool dark) {
+  const Json scheme = {{"name", "prefers-color-scheme"}, {"value", dark ? "dark" : "light"}};
+  call("Emulation.setEmulatedMedia", {{"features", Json::array({scheme})}});
 }
 
 void BrowserPage::take_event(const Json& message) {
@@ -141,29 +229,13 @@ void BrowserPage::take_event(const Json& message) {
 }
 
 Json BrowserPage::call(const std::string& method, const Json& parameters) {
-  Json command = {{"id", ++last_id_}, {"method", method}, {"params", parameters}};
-  if (!session_.empty()) command["sessionId"] = session_;
-  const std::string text = command.dump() + '\0';
-  for (std::size_t sent = 0; sent < text.size();) {
-    const ssize_t count = write(to_browser_, text.data() + sent, text.size() - sent);
-    if (count <= 0) throw std::runtime_error("Chromium ended");
-    sent += static_cast<std::size_t>(count);
-  }
-  for (;;) {
-    Json message = read_message();
-    if (message.value("id", 0) != last_id_) {
-      take_event(message);
-      continue;
-    }
-    if (message.contains("error")) throw std::runtime_error(method + ": " + message["error"].dump());
-    return message.at("result");
-  }
+  return browser_->call(session_, method, parameters);
 }
 
 void BrowserPage::open(const std::string& path) {
   loaded_ = false;
   call("Page.navigate", {{"url", "file://" + path}});
-  while (!loaded_) take_event(read_message());
+  while (!loaded_) browser_->wait_for_event();
 }
 
 Json BrowserPage::evaluate(const std::string& expression) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-#include "tests/support/temporary_folder.hpp"
 
 namespace faultline {
 
@@ -18,8 +17,10 @@ struct BrowserOptions {
   bool dark = false;               ///< prefers-color-scheme
 };
 
-/// A page in a headless Chromium of its own, driven over a pipe by the DevTools protocol. Throws
-/// std::runtime_error when the browser does not answer.
+class Browser;
+
+/// A page of a headless Chromium, with cookies and storage of its own. The first page starts the browser,
+/// which all pages of a process share. Throws std::runtime_error when the browser does not answer.
 class BrowserPage {
  public:
   explicit BrowserPage(const BrowserOptions& options = {});
@@ -49,18 +50,12 @@ class BrowserPage {
 
  private:
   nlohmann::json call(const std::string& method, const nlohmann::json& parameters = nlohmann::json::object());
-  nlohmann::json read_message();
   void take_event(const nlohmann::json& message);
   void mouse(const char* type, double x, double y, int buttons);
-  void start(const BrowserOptions& options);
 
-  TemporaryFolder profile_;
-  int process_ = -1;
-  int to_browser_ = -1, from_browser_ = -1;
-  int last_id_ = 0;
+  std::shared_ptr<Browser> browser_;
+  std::string context_, target_, session_;
   bool loaded_ = false;
-  std::string session_;
-  std::string unread_;
   std::vector<std::string> complaints_, requests_;
 };
 

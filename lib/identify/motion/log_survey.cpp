@@ -114,14 +114,15 @@ VelocityAgreement velocity_agreement(const JointMotion& motion) {
   return check.result();
 }
 
-/// Adds an issue if the torque never changes or is at a limit in many rows: a command beyond the limit is not
-/// the torque that moved the robot.
-void judge_torque(const ChannelSummary& torque, Issues& issues) {
+/// Adds an issue if the torque never changes, or is at a limit that is not known in many rows: a command
+/// beyond the limit is not the torque that moved the robot.
+void judge_torque(const ChannelSummary& torque, bool limit_is_known, Issues& issues) {
   if (torque.constant()) {
     issues.add(make_issue("constant_torque", Severity::warning,
                           torque.name + " never changes: check that it is the right column", torque.name));
     return;
   }
+  if (limit_is_known) return;
   const auto rows = static_cast<double>(torque.values);
   for (const auto& [limit, times] : {std::pair{torque.max, torque.at_max}, {torque.min, torque.at_min}})
     if (static_cast<double>(times) > kLimitShare * rows && limit != 0.0)
@@ -170,9 +171,10 @@ LogSurvey survey_log(LogSource& source, int joints) {
   return survey;
 }
 
-Issues survey_issues(const LogSurvey& survey) {
+Issues survey_issues(const LogSurvey& survey, const std::vector<double>& known_limit) {
   Issues issues;
-  for (const ChannelSummary& torque : survey.torque) judge_torque(torque, issues);
+  for (std::size_t j = 0; j < survey.torque.size(); ++j)
+    judge_torque(survey.torque[j], j < known_limit.size() && known_limit[j] > 0.0, issues);
   const auto note = [&](std::string code, Severity severity, std::string message) {
     issues.add(make_issue(std::move(code), severity, std::move(message)));
   };

@@ -35,7 +35,8 @@ struct LogSurvey {
 /// Reads a log from its start. Throws Error(input) if it lacks torque or its joints differ in number.
 LogSurvey survey_log(LogSource& source, int joints);
 
-/// Returns the findings of the survey that the user must see, as issues.
-Issues survey_issues(const LogSurvey& survey);
+/// Returns the findings of the survey that the user must see, as issues. `known_limit` holds the limit of
+/// each drive to which the torques are cut (Robot::torque_limit; 0 or no entry: not known).
+Issues survey_issues(const LogSurvey& survey, const std::vector<double>& known_limit = {});
 
 }  // namespace faultline

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/log/log_source.hpp"
@@ -94,6 +95,17 @@ TEST(LogSurvey, VelocityInAnotherUnitIsNamedAndLeftOut) {
             std::string::npos);
   EXPECT_NE(issues.find("velocity_disagrees_3")->message.find("the sign of one of them is wrong"),
             std::string::npos);
+}
+
+TEST(LogSurvey, TorqueAtALimitIsAWarningUnlessTheLimitIsKnown) {
+  Log log = simulate_closed_form({}, {});
+  double largest = 0.0;
+  for (const double tau : log.tau[1]) largest = std::max(largest, std::abs(tau));
+  for (double& tau : log.tau[1]) tau = std::clamp(tau, -0.4 * largest, 0.4 * largest);
+  const LogSurvey s = survey(log);
+  EXPECT_NE(survey_issues(s).find("torque_limit", "tau2"), nullptr);
+  EXPECT_NE(survey_issues(s, {3.0}).find("torque_limit", "tau2"), nullptr) << "that of another joint";
+  EXPECT_EQ(survey_issues(s, {0.0, 0.4 * largest}).find("torque_limit", "tau2"), nullptr);
 }
 
 TEST(RawStretch, LostRowsBecomeRowsWithoutMeasurementAndLongGapsSplitTheLog) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/transformed/delayed_torque_source.hpp"
+#include "lib/log/transformed/converted_torque_source.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace faultline {
 
-DelayedTorque::DelayedTorque(std::vector<double> delay_s, std::vector<double> gain, std::vector<double> limit)
+TorqueConversion::TorqueConversion(std::vector<double> delay_s, std::vector<double> gain,
+                                   std::vector<double> limit)
     : delay_s_(std::move(delay_s)), gain_(std::move(gain)), limit_(std::move(limit)) {
   for (const double delay : delay_s_) {
     ahead_s_ = std::max(ahead_s_, -delay);
@@ -15,7 +16,7 @@ DelayedTorque::DelayedTorque(std::vector<double> delay_s, std::vector<double> ga
 }
 
 /// Appends one more segment of the source to the rows not handed out yet; returns false at the end.
-bool DelayedTorque::fill(LogSource& source) {
+bool TorqueConversion::fill(LogSource& source) {
   Log segment;
   if (at_end_ || !source.next(segment)) {
     at_end_ = true;
@@ -30,7 +31,7 @@ bool DelayedTorque::fill(LogSource& source) {
   return true;
 }
 
-double DelayedTorque::torque_at(int j, double t) {
+double TorqueConversion::torque_at(int j, double t) {
   const std::vector<double>& tau = tau_[j];
   std::size_t& k = position_[j];
   while (k < time_.size() && time_[k] < t) ++k;
@@ -40,7 +41,7 @@ double DelayedTorque::torque_at(int j, double t) {
   return x == 1.0 ? tau[k] : tau[k - 1] + x * (tau[k] - tau[k - 1]);
 }
 
-bool DelayedTorque::next(LogSource& source, Log& segment) {
+bool TorqueConversion::next(LogSource& source, Log& segment) {
   while (rows_.rows() == 0 || rows_.time.front() + ahead_s_ > time_.back())
     if (!fill(source)) break;
   if (rows_.rows() == 0) return false;

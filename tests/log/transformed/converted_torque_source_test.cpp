@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lib/log/transformed/delayed_torque_source.hpp"
+#include "lib/log/transformed/converted_torque_source.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,11 +27,11 @@ Log ramp(int rows) {
 
 Log delayed(const std::vector<double>& delay_s, int segment_rows) {
   MemorySource source(ramp(500), "ramp", segment_rows);
-  DelayedTorqueSource late(source, delay_s);
+  ConvertedTorqueSource late(source, delay_s);
   return read_all(late);
 }
 
-TEST(DelayedTorqueSource, TorqueIsThatOfATimeEarlierByTheDelay) {
+TEST(ConvertedTorqueSource, TorqueIsThatOfATimeEarlierByTheDelay) {
   for (const int segment_rows : {1, 7, 500}) {
     const Log log = delayed({0.006, -0.003}, segment_rows);
     ASSERT_EQ(log.rows(), 500);
@@ -43,31 +43,31 @@ TEST(DelayedTorqueSource, TorqueIsThatOfATimeEarlierByTheDelay) {
   }
 }
 
-TEST(DelayedTorqueSource, ADelayOfWholeSamplesGivesTheRecordedValues) {
+TEST(ConvertedTorqueSource, ADelayOfWholeSamplesGivesTheRecordedValues) {
   const Log log = delayed({0.004, 0.0}, 13), raw = ramp(500);
   for (int k = 2; k < 500; ++k) EXPECT_NEAR(log.tau[0][k], raw.tau[0][k - 2], 1e-13);
   EXPECT_EQ(log.tau[1], raw.tau[1]);
 }
 
-TEST(DelayedTorqueSource, GainsMultiplyTheTorqueOfTheirJoints) {
+TEST(ConvertedTorqueSource, GainsMultiplyTheTorqueOfTheirJoints) {
   MemorySource source(ramp(50), "ramp", 7);
-  DelayedTorqueSource scaled(source, {{}, {1.0, 1.25}});
+  ConvertedTorqueSource scaled(source, {{}, {1.0, 1.25}});
   const Log log = read_all(scaled), raw = ramp(50);
   EXPECT_EQ(log.tau[0], raw.tau[0]);
   for (int k = 0; k < 50; ++k) EXPECT_EQ(log.tau[1][k], 1.25 * raw.tau[1][k]);
 }
 
-TEST(DelayedTorqueSource, TorquesAreCutToTheLimitOfTheirDriveAfterTheGain) {
+TEST(ConvertedTorqueSource, TorquesAreCutToTheLimitOfTheirDriveAfterTheGain) {
   MemorySource source(ramp(50), "ramp", 7);
-  DelayedTorqueSource limited(source, {{}, {2.0, 1.0}, {0.5, 0.0}});
+  ConvertedTorqueSource limited(source, {{}, {2.0, 1.0}, {0.5, 0.0}});
   const Log log = read_all(limited), raw = ramp(50);
   for (int k = 0; k < 50; ++k) EXPECT_EQ(log.tau[0][k], std::min(2.0 * raw.tau[0][k], 0.5));
   EXPECT_EQ(log.tau[1], raw.tau[1]) << "0 is no limit";
 }
 
-TEST(DelayedTorqueSource, RewindGivesTheSameRowsAgain) {
+TEST(ConvertedTorqueSource, RewindGivesTheSameRowsAgain) {
   MemorySource source(ramp(100), "ramp", 9);
-  DelayedTorqueSource late(source, {{0.006, -0.003}});
+  ConvertedTorqueSource late(source, {{0.006, -0.003}});
   const Log once = read_all(late);
   late.rewind();
   EXPECT_EQ(read_all(late).tau, once.tau);

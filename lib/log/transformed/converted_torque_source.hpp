@@ -7,13 +7,14 @@
 
 namespace faultline {
 
-/// Compensates delays of torques, which act later (or earlier) than they are logged: the torque of joint j at
-/// time t is the logged one at t - delay_s[j], interpolated linearly between its samples and held constant
-/// before the first and after the last one. Torques are multiplied by `gain`, if given, then cut to `limit`,
-/// if that is given and not 0. All other channels pass unchanged.
-class DelayedTorque {
+/// Converts logged torques to those that act on the joints. The torque of joint j at time t is the logged one
+/// at t - delay_s[j], since torques act later (or earlier) than they are logged; it is interpolated linearly
+/// between samples and held constant before the first and after the last one. It is then multiplied by
+/// gain[j], and cut to limit[j] where that is not 0. All other channels pass unchanged.
+class TorqueConversion {
  public:
-  DelayedTorque(std::vector<double> delay_s, std::vector<double> gain = {}, std::vector<double> limit = {});
+  TorqueConversion(std::vector<double> delay_s, std::vector<double> gain = {},
+                   std::vector<double> limit = {});
 
   bool next(LogSource& source, Log& segment);
 
@@ -31,6 +32,6 @@ class DelayedTorque {
   std::vector<std::size_t> position_;  ///< by joint: first stored torque not before the last query
 };
 
-using DelayedTorqueSource = StagedSource<DelayedTorque>;
+using ConvertedTorqueSource = StagedSource<TorqueConversion>;
 
 }  // namespace faultline
