@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 
 #include "apps/commands.hpp"
 #include "apps/options.hpp"
+#include "apps/work/comparison.hpp"
 #include "apps/work/file_use.hpp"
 #include "apps/work/robot_log.hpp"
 #include "formats/open_log.hpp"
-#include "lib/compare/compare_runs.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "lib/core/error.hpp"
-#include "lib/diagnose/monitor/model_rate.hpp"
 #include "lib/log/derived_velocity.hpp"
 #include "lib/model/model.hpp"
 #include "lib/report/html/comparison/comparison_page.hpp"
 
 namespace faultline {
 namespace {
-
-const std::vector<std::string> kAlignments{"auto", "time", "motion"};  // in the order of AlignmentKind
 
 struct CompareArguments {
   std::string first, second, model, html, json;
@@ -37,35 +31,16 @@ void claim_files(const CompareArguments& arguments) {
       .claim();
 }
 
-RunSignals read_run(const std::string& path, const Model* model) {
-  const auto log = with_velocity(model ? open_robot_log(path, model->robot) : open_log(path));
-  if (!model) return run_signals(path, read_all(*log), nullptr);
-  const LogRate rate = log_rate(*log, *model);
-  if (rate.is_models()) return run_signals(path, read_all(*log), &model->residual);
-  const Issue resampled = resampled_issue(rate, *model);
-  if (!rate.can_be_resampled())
-    throw Error(ErrorCode::input, path,
-                fmt::format("has a sample every {:.4g} s, but the model was learned from logs with one "
-                            "every {:.4g} s; compare without --model",
-                            rate.period_s, model->sample_period_s));
-  print_message(path + ": " + resampled.message);
-  return run_signals(path, read_all(*at_model_rate(*log, *model)), &model->residual);
-}
-
-std::vector<char> turns_of(const Model& model) {
-  std::vector<char> turns;
-  for (const JointGeometry& joint : model.robot.chain.geometry)
-    turns.push_back(joint.kind == AxisKind::revolute);
-  return turns;
+std::unique_ptr<LogSource> opened(const std::string& path, const Model* model) {
+  return with_velocity(model ? open_robot_log(path, model->robot) : open_log(path));
 }
 
 int run_compare(const CompareArguments& arguments) {
   claim_files(arguments);
   std::unique_ptr<Model> model;
   if (!arguments.model.empty()) model = std::make_unique<Model>(load_model(arguments.model));
-  const std::vector<char> turns = model ? turns_of(*model) : std::vector<char>{};
-  const RunComparison comparison = compare_runs(read_run(arguments.first, model.get()),
-                                                read_run(arguments.second, model.get()), arguments.align);
+  const auto first = opened(arguments.first, model.get()), second = opened(arguments.second, model.get());
+  const auto [comparison, turns] = compare_logs(*first, *second, model.get(), arguments.align);
   if (!arguments.json.empty()) write_file(arguments.json, to_json(comparison, turns));
   if (!arguments.html.empty()) write_file(arguments.html, render_comparison_html(comparison, turns));
   if (arguments.json != "-" && arguments.html != "-") print(to_text(comparison, turns));
@@ -85,11 +60,9 @@ void add_compare(CLI::App& app, Program& program) {
                    "Model of the robot, for its columns and units and for residuals of both runs")
       ->type_name("MODEL");
   add_choice_option(
-      *command, "--align", kAlignments,
-      [arguments](std::size_t place) { arguments->align = static_cast<AlignmentKind>(place); },
-      "time: each from its first row; motion: by the references, a constant shift or a warp; auto: motion "
-      "if that is better")
-      ->default_str(kAlignments.front());
+      *command, "--align", arguments->align, kAlignmentKinds,
+      "time: each from its first row; motion: by the references, a constant shift or a warp; auto: "
+      "motion if that is better");
   add_file_option(*command, "--html", arguments->html, "Write a page with plots");
   add_file_option(*command, "--json", arguments->json, "Write the comparison as JSON");
   command->footer(

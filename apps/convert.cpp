@@ -3,18 +3,18 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "apps/commands.hpp"
 #include "apps/options.hpp"
 #include "apps/terminal.hpp"
+#include "apps/work/conversion.hpp"
 #include "apps/work/diagnosis_recording.hpp"
 #include "apps/work/file_use.hpp"
 #include "formats/log_formats.hpp"
-#include "formats/log_writer.hpp"
 #include "formats/open_log.hpp"
-#include "formats/provenance.hpp"
-#include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
+#include "lib/robot/chain.hpp"
 #include "lib/robot/robot_file.hpp"
 
 namespace faultline {
@@ -36,22 +36,13 @@ std::string written_extensions() {
   return either_of(extensions);
 }
 
-void copy_rows(LogSource& source, LogWriter& writer, const Progress& progress) {
-  Log segment;
-  while (source.next(segment)) {
-    writer.write(segment);
-    if (progress) progress("converting " + source.identity().path, source.share_read());
-  }
-}
-
-void report_losses(const LogSource& source, const ConvertArguments& arguments) {
-  for (const Issue& issue : source.issues().all())
+void report(const Conversion& done, const ConvertArguments& arguments) {
+  for (const Issue& issue : done.issues.all())
     print_message(fmt::format("{}: {} {}{}: {}", arguments.log, to_string(issue.severity), issue.code,
                               issue.count > 1 ? fmt::format(" ({} times)", issue.count) : "", issue.message));
   if (arguments.out == "-") return;
-  const auto& log = source.identity();
-  print(printable(fmt::format("{}: {} of {} rows of {}", arguments.out,
-                              log.rows_read - source.issues().rows_dropped(), log.rows_read, arguments.log)) +
+  print(printable(fmt::format("{}: {} of {} rows of {}", arguments.out, done.rows_written, done.rows_read,
+                              arguments.log)) +
         "\n");
 }
 
@@ -67,25 +58,20 @@ int convert(const ConvertArguments& arguments, ColorChoice color) {
   options.parts = arguments.parts;
   options.parts.hashed = false;  // provenance computes it if needed
   if (!arguments.robot.empty()) {
-    const LogMeaning meaning = load_robot_file(arguments.robot).log;
-    options.columns = meaning.columns;
-    options.recording = meaning.recording;
+    const Robot robot = load_robot_file(arguments.robot);
+    options.columns = robot.log.columns;
+    options.recording = robot.log.recording;
+    options.slides = sliding_joints(robot.chain);
   }
-  std::vector<LogEvent> events;
+  std::optional<std::vector<LogEvent>> events;
   if (!arguments.diagnosis.empty()) events = events_of_file(arguments.diagnosis);
-  const auto source = open_log(arguments.log, options);
-  const auto writer = create_log(arguments.out);
-  {
+  const auto log = open_log(arguments.log, options);
+  const Conversion done = [&] {
     ProgressBar bar(color);
-    copy_rows(*source, *writer, bar.callback());
-  }
-  if (!arguments.diagnosis.empty() && !writer->note_events(events))
-    throw Error(ErrorCode::usage, "--diagnosis", "only a log written as .mcap can hold events");
-  const std::string provenance = provenance_of(*source);
-  if (!provenance.empty()) writer->note_provenance(provenance);
-  writer->commit();
-  report_losses(*source, arguments);
-  return provenance.empty() ? kNothingFound : kFindings;
+    return convert_log(*log, arguments.out, events, bar.callback());
+  }();
+  report(done, arguments);
+  return done.lost_values ? kFindings : kNothingFound;
 }
 
 }  // namespace

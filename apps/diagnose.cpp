@@ -84,11 +84,13 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
     throw Error(ErrorCode::usage, kRecordingOption,
                 "cannot write to standard output; give the name of a file");
   claim_files(arguments);
-  const auto [model, cases] = load_model_files(arguments.model, arguments.case_base());
+  const ModelFiles files = load_model_files(arguments.model, arguments.case_base());
+  const Model& model = files.model;
   DiagnoseOptions options = arguments.options;
-  options.stop = stop_question(arguments.log, arguments.parts, model.robot, arguments.moment, arguments.stop);
+  options.stop = stop_question(stop_log(arguments.log, arguments.parts, model.robot.log.recording),
+                               model.robot, arguments.moment, arguments.stop);
   const auto log = prefetched(open_robot_log(arguments.log, model.robot, arguments.parts));
-  const Diagnosis diagnosis = diagnose(*log, model, cases, options);
+  const Diagnosis diagnosis = diagnose(*log, model, files.cases, options);
   const auto tell_diagnosis = [&] {
     TimelineOptions timeline;
     timeline.color = use_color(color, stdout);

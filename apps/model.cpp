@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "lib/model/model.hpp"
-
 #include <CLI/CLI.hpp>
 #include <memory>
 
 #include "apps/commands.hpp"
-#include "lib/core/atomic_file.hpp"
 #include "lib/core/text.hpp"
-#include "lib/model/model_text.hpp"
+#include "lib/model/model_files.hpp"
 
 namespace faultline {
 namespace {
@@ -16,16 +13,12 @@ struct SignArguments {
   std::string model, why;
 };
 
-int sign_model(const SignArguments& arguments) {
-  const std::string text = read_file(arguments.model);
-  const std::string accepted = signed_model_text(text, arguments.why, arguments.model);
-  model_from_json(accepted, arguments.model);
-  if (accepted == text) {
+int run_sign(const SignArguments& arguments) {
+  if (!sign_model(arguments.model, arguments.why)) {
     print(printable(arguments.model) + " matches its digest; there is nothing to sign" +
           (arguments.why.empty() ? ".\n" : ", and --why is not kept.\n"));
     return kNothingFound;
   }
-  write_file(arguments.model, accepted);
   print(printable(arguments.model) +
         " is accepted as it is now; each report made with it states that it was edited.\n");
   return kNothingFound;
@@ -44,7 +37,7 @@ void add_model(CLI::App& app, Program& program) {
       ->type_name("TEXT");
   sign->footer(
       "Example: faultline model sign robot.model --why \"higher alarm threshold for the night shift\"");
-  sign->callback([arguments, &program] { program.run = [arguments] { return sign_model(*arguments); }; });
+  sign->callback([arguments, &program] { program.run = [arguments] { return run_sign(*arguments); }; });
   model->footer("Example: faultline model sign robot.model --why \"higher alarm threshold\"");
 }
 

@@ -110,9 +110,10 @@ std::unique_ptr<RawReader> open_parts(const std::string& path, const LogSelectio
 }
 
 std::unique_ptr<LogSource> open_log(const std::string& path, const OpenLogOptions& options) {
-  return mended(std::make_unique<MappedSource>(
-      open_parts(path, options.parts, options.recording),
-      MappedSourceOptions{options.columns, options.parts.run, options.segment_rows, options.keep_extra}));
+  return mended(std::make_unique<MappedSource>(open_parts(path, options.parts, options.recording),
+                                               MappedSourceOptions{options.columns, options.parts.run,
+                                                                   options.segment_rows, options.keep_extra}),
+                options.slides);
 }
 
 std::vector<std::string> files_beside(const std::string& path) {

@@ -25,6 +25,7 @@ struct OpenLogOptions {
   LogSelection parts{};
   ColumnMap columns{};          ///< [log.columns] of the robot file: robot.log.columns
   RecordingChoice recording{};  ///< [log] of the robot file: robot.log.recording
+  std::vector<bool> slides{};   ///< by joint: it slides and so has no turns; empty if unknown
   int segment_rows = 4096;      ///< upper limit of the rows of a segment; changes no byte of any result
   bool keep_extra =
       true;  ///< also return columns without a canonical meaning; reading is faster without them

@@ -43,8 +43,11 @@ void bind_diagnosis(pybind11::module_& module);
 void bind_learn(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);
 void bind_inspect(pybind11::module_& module);
+void bind_compare(pybind11::module_& module);
+void bind_convert(pybind11::module_& module);
 void bind_batch(pybind11::module_& module);
 void bind_golden(pybind11::module_& module);
+void bind_history(pybind11::module_& module);
 void bind_cases(pybind11::module_& module);
 void bind_simulate(pybind11::module_& module);
 

@@ -8,6 +8,8 @@
 
 #include "apps/python/bindings.hpp"
 #include "apps/python/log_handle.hpp"
+#include "apps/work/diagnosis_recording.hpp"
+#include "apps/work/stop_moment.hpp"
 #include "lib/core/error.hpp"
 #include "lib/diagnose/curves/run_curves.hpp"
 #include "lib/diagnose/diagnose.hpp"
@@ -44,14 +46,19 @@ struct MadeDiagnosis {
 std::shared_ptr<MadeDiagnosis> make_diagnosis(const std::shared_ptr<LogHandle>& log,
                                               const std::shared_ptr<LoadedModel>& model,
                                               const std::string& classify, const std::string& criterion,
-                                              int g, const py::object& progress) {
+                                              int g, const std::string& moment, const std::string& stop,
+                                              const py::object& progress) {
   DiagnoseOptions options;
   options.mode = named("classify", classify, kClassifyModes);
   options.criterion = named("criterion", criterion, kCriterionKinds);
   options.g = g;
   if (g < 0) throw Error(ErrorCode::usage, "g", "must not be negative");
   Diagnosis diagnosis = watched(progress, [&](ProgressRelay& watch) {
-    const auto source = prefetched(log->open(model->model.robot, watch, true));
+    const Robot& robot = model->model.robot;
+    const StopLog columns{log->name(), log->parts().run,
+                          [&] { return log->open_columns(robot.log.recording); }};
+    options.stop = stop_question(columns, robot, moment, stop);
+    const auto source = prefetched(log->open(robot, watch, true));
     return diagnose(*source, model->model, model->cases, options);
   });
   return std::make_shared<MadeDiagnosis>(MadeDiagnosis{model, log, options, std::move(diagnosis)});
@@ -65,6 +72,16 @@ std::string render(const MadeDiagnosis& made, const std::string& format, const p
     });
   const py::gil_scoped_release others_run;
   return chosen.render({made.diagnosis, {}});
+}
+
+void record(const MadeDiagnosis& made, const std::string& path, const py::object& progress) {
+  if (path == "-")
+    throw Error(ErrorCode::usage, "mcap", "cannot be standard output; give the name of a file");
+  FileUse().reads("the log", made.log->files()).reads(made.model->paths).writes("mcap", path).claim();
+  made.look_again(progress, [&](LogSource& source) {
+    write_recording(path, source, made.model->model, made.diagnosis);
+    return true;
+  });
 }
 
 std::string text(const MadeDiagnosis& made, int width, bool unicode, bool color) {
@@ -144,6 +161,8 @@ void bind_diagnosis(py::module_& module) {
                                                             "The result of diagnosing a log.")
       .def("render", &render, py::arg("format"), py::arg("progress"),
            "A report: json, csv, html, md or junit. The page reads the log once more.")
+      .def("record", &record, py::arg("path"), py::arg("progress"),
+           "Writes the log with what was found as MCAP, by a second pass over the log.")
       .def("text", &text, py::arg("width"), py::arg("unicode"), py::arg("color"), "The report of a terminal.")
       .def(
           "sentence", [](const MadeDiagnosis& made) { return verdict_sentence(made.diagnosis); },
@@ -151,7 +170,8 @@ void bind_diagnosis(py::module_& module) {
       .def("curves", &curves, py::arg("bins"), py::arg("progress"),
            "The course of the run as arrays, by a second pass over the log.");
   module.def("diagnose", &make_diagnosis, py::arg("log"), py::arg("model"), py::arg("classify"),
-             py::arg("criterion"), py::arg("g"), py::arg("progress"), "Finds the faults in one log.");
+             py::arg("criterion"), py::arg("g"), py::arg("at"), py::arg("stop"), py::arg("progress"),
+             "Finds the faults in one log.");
 }
 
 }  // namespace faultline

@@ -28,9 +28,9 @@ std::string recorded_json(const Recorded& recorded, const std::vector<std::strin
   return json_text(json);
 }
 
-std::string record(const std::vector<std::string>& logs, const std::string& model, const std::string& cases,
-                   const std::string& folder, bool identify, int trace_points, int threads,
-                   const py::object& progress) {
+std::string record_logs(const std::vector<std::string>& logs, const std::string& model,
+                        const std::string& cases, const std::string& folder, bool identify, int trace_points,
+                        int threads, const py::object& progress) {
   RecordArguments arguments{{{model, cases}, folder, "", "", 0}, logs, {identify, trace_points, threads}};
   return watched(progress, [&](ProgressRelay& watch) {
     const std::vector<std::string> skipped = skip_label_tables(arguments.logs);
@@ -68,9 +68,9 @@ std::pair<std::vector<std::string>, std::vector<std::string>> accept(
 }  // namespace
 
 void bind_golden(py::module_& module) {
-  module.def("golden_record", &record, py::arg("logs"), py::arg("model"), py::arg("cases"), py::arg("folder"),
-             py::arg("identify"), py::arg("trace_points"), py::arg("threads"), py::arg("progress"),
-             "Makes a golden folder.");
+  module.def("golden_record", &record_logs, py::arg("logs"), py::arg("model"), py::arg("cases"),
+             py::arg("folder"), py::arg("identify"), py::arg("trace_points"), py::arg("threads"),
+             py::arg("progress"), "Makes a golden folder.");
   module.def("golden_check", &check, py::arg("folder"), py::arg("model"), py::arg("cases"), py::arg("junit"),
              py::arg("threads"), py::arg("progress"), "Replays a golden folder and compares.");
   module.def("golden_accept", &accept, py::arg("folder"), py::arg("names"), py::arg("all"),

@@ -158,6 +158,18 @@ std::unique_ptr<RawReader> LogHandle::open_columns(const RecordingChoice& choice
   return std::make_unique<ColumnReader>(columns_, name_);
 }
 
+std::unique_ptr<LogSource> LogHandle::open_channels(const Robot* robot, bool extra,
+                                                    ProgressRelay& watch) const {
+  MappedSourceOptions options;
+  if (robot) options.columns = robot->log.columns;
+  options.run = parts_.run;
+  options.keep_extra = extra;
+  auto source =
+      std::make_unique<MappedSource>(open_columns(robot ? robot->log.recording : RecordingChoice{}), options);
+  return interruptible(mended(std::move(source), robot ? sliding_joints(robot->chain) : std::vector<bool>{}),
+                       watch, true);
+}
+
 std::unique_ptr<LogSource> LogHandle::open(const Robot& robot, ProgressRelay& watch,
                                            bool reports_progress) const {
   return interruptible(robot_log_of(open_columns(robot.log.recording), robot, parts_.run), watch,
@@ -176,15 +188,7 @@ py::tuple read_channels(const LogHandle& handle, const std::string& robot_name, 
                         const py::object& progress) {
   auto [log, facts] = watched(progress, [&](ProgressRelay& watch) {
     const std::optional<Robot> robot = robot_named(robot_name);
-    MappedSourceOptions options;
-    if (robot) options.columns = robot->log.columns;
-    options.run = handle.parts().run;
-    options.keep_extra = extra;
-    const auto source = interruptible(
-        mended(std::make_unique<MappedSource>(
-                   handle.open_columns(robot ? robot->log.recording : RecordingChoice{}), options),
-               robot ? sliding_joints(robot->chain) : std::vector<bool>{}),
-        watch, true);
+    const auto source = handle.open_channels(robot ? &*robot : nullptr, extra, watch);
     Log read = read_all(*source);
     const LogIdentity& identity = source->identity();
     return std::pair(std::move(read),

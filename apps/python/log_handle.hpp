@@ -41,6 +41,9 @@ class LogHandle {
 
   /// Opens the columns without mapping. Throws as open_parts() does.
   std::unique_ptr<RawReader> open_columns(const RecordingChoice& choice = {}) const;
+  /// Opens all channels of the log in SI: with the columns of a robot file (null: none), with columns without
+  /// a meaning if `extra`. It ends with the work and reports its progress.
+  std::unique_ptr<LogSource> open_channels(const Robot* robot, bool extra, ProgressRelay& watch) const;
   /// Opens a log of this robot as open_robot_log() does; it ends with the work and does not read ahead.
   /// Reports the progress if `reports_progress` is set.
   std::unique_ptr<LogSource> open(const Robot& robot, ProgressRelay& watch, bool reports_progress) const;

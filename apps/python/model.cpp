@@ -27,6 +27,12 @@ void save(const LoadedModel& loaded, const std::string& path, const std::string&
   write_model(loaded.model, base, paths);
 }
 
+/// Returns whether the model was edited; one that was not stays as it is.
+bool sign(const std::string& path, const std::string& why) {
+  const py::gil_scoped_release others_run;
+  return sign_model(path, why);
+}
+
 }  // namespace
 
 void bind_model(py::module_& module) {
@@ -61,6 +67,8 @@ void bind_model(py::module_& module) {
           "robot_text", [](const LoadedModel& m) { return robot_file_text(m.model.robot); },
           "The identified robot as a robot file.")
       .def("save", &save, py::arg("path"), py::arg("cases"), "Writes model and case base.");
+  module.def("sign_model", &sign, py::arg("path"), py::arg("why"),
+             "Accepts a model that was edited on purpose.");
 }
 
 }  // namespace faultline

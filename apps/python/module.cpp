@@ -45,7 +45,8 @@ PYBIND11_MODULE(_faultline, module) {
   module.attr("version") = faultline::program_version();
   faultline::bind_errors();
   using namespace faultline;
-  for (const auto add_part : {bind_log, bind_model, bind_networks, bind_diagnosis, bind_learn, bind_identify,
-                              bind_inspect, bind_batch, bind_golden, bind_cases, bind_simulate})
+  for (const auto add_part :
+       {bind_log, bind_model, bind_networks, bind_diagnosis, bind_learn, bind_identify, bind_inspect,
+        bind_compare, bind_convert, bind_batch, bind_history, bind_golden, bind_cases, bind_simulate})
     add_part(module);
 }

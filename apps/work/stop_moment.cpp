@@ -74,27 +74,30 @@ double moment_of(const std::string& text, const std::string& option) {
                   shortened(text, kLongestName)));
 }
 
-std::optional<double> first_change_of(const std::string& path, const LogSelection& parts, const Robot& robot,
-                                      const std::string& column) {
-  std::unique_ptr<RawReader> reader = open_parts(path, parts, robot.log.recording);
+StopLog stop_log(const std::string& path, const LogSelection& parts, const RecordingChoice& choice) {
+  return {path, parts.run, [=] { return open_parts(path, parts, choice); }};
+}
+
+std::optional<double> first_change_of(const StopLog& log, const Robot& robot, const std::string& column) {
+  std::unique_ptr<RawReader> reader = log.open();
   const std::vector<RawColumn> columns = reader->columns();
   const auto found = std::find_if(columns.begin(), columns.end(),
                                   [&](const RawColumn& each) { return each.name == column; });
   if (found == columns.end())
-    throw Error(ErrorCode::usage, path,
+    throw Error(ErrorCode::usage, log.name,
                 fmt::format("has no column \"{}\" for the stop of the machine; its columns are: {}",
                             shortened(column, kLongestName), names_of(columns)));
   reader->code_texts(static_cast<int>(found - columns.begin()));
   MappedSourceOptions options;
   options.columns = robot.log.columns;
-  options.run = parts.run;
+  options.run = log.run;
   MappedSource source(std::move(reader), options);
   FlagCourse flag;
   for (Log segment; source.next(segment);) {
     const auto extra = std::find_if(segment.extra.begin(), segment.extra.end(),
                                     [&](const ExtraChannel& each) { return each.name == column; });
     if (extra == segment.extra.end())
-      throw Error(ErrorCode::usage, path,
+      throw Error(ErrorCode::usage, log.name,
                   fmt::format("uses column \"{}\" as a channel of the log, so that it cannot be the stop of "
                               "the machine; name another column",
                               shortened(column, kLongestName)));
@@ -104,8 +107,7 @@ std::optional<double> first_change_of(const std::string& path, const LogSelectio
   return std::nullopt;
 }
 
-std::optional<StopQuestion> stop_question(const std::string& path, const LogSelection& parts,
-                                          const Robot& robot, const std::string& moment,
+std::optional<StopQuestion> stop_question(const StopLog& log, const Robot& robot, const std::string& moment,
                                           const std::string& column) {
   if (!moment.empty()) return StopQuestion{moment_of(moment, "--at"), ""};
   const auto own = robot.log.columns.find(kStopChannel);
@@ -113,13 +115,13 @@ std::optional<StopQuestion> stop_question(const std::string& path, const LogSele
   if (name.empty()) return std::nullopt;
   std::optional<double> time_s;
   try {
-    time_s = first_change_of(path, parts, robot, name);
+    time_s = first_change_of(log, robot, name);
   } catch (const Error& error) {  // logs of a robot need not have the column that its file names
     if (!column.empty() || error.code() != ErrorCode::usage) throw;
   }
   if (time_s) return StopQuestion{*time_s, name};
   if (column.empty()) return std::nullopt;
-  throw Error(ErrorCode::usage, path,
+  throw Error(ErrorCode::usage, log.name,
               fmt::format("column \"{}\" never rises from 0 and never changes its text, so that there is no "
                           "stop to ask about; give the moment with --at",
                           shortened(column, kLongestName)));

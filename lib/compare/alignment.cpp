@@ -147,6 +147,18 @@ RunAlignment finished(RunAlignment alignment, const std::string& basis, double w
 
 }  // namespace
 
+const char* to_string(AlignmentKind kind) {
+  switch (kind) {
+    case AlignmentKind::automatic:
+      return "auto";
+    case AlignmentKind::time:
+      return "time";
+    case AlignmentKind::motion:
+      return "motion";
+  }
+  return "";
+}
+
 double RunAlignment::second_at(double at) const {
   if (!warped()) return at + shift_s;
   if (at < first_s.front() || at > first_s.back()) return kNotKnown;

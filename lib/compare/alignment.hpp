@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ enum class AlignmentKind {
   motion,     ///< by a constant shift of the motion, or a monotone warp if none suits; by positions alone, a
               ///< warp is used for `motion` only, since it would also follow the effect of a fault on them
 };
+
+inline constexpr std::array kAlignmentKinds{AlignmentKind::automatic, AlignmentKind::time,
+                                            AlignmentKind::motion};
+/// Returns auto, time or motion.
+const char* to_string(AlignmentKind kind);
 
 /// Assignment of times of the second run to times of the first.
 struct RunAlignment {

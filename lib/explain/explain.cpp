@@ -12,6 +12,7 @@
 #include "lib/explain/refine.hpp"
 #include "lib/explain/search/search.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
+#include "lib/explain/search/standstill.hpp"
 
 namespace faultline {
 namespace {
@@ -110,7 +111,9 @@ void judge_candidates(const std::vector<Candidate>& all, const FreeForm& change,
     }
     for (const Candidate& c : of(all, FaultKind::sensor_bias, joint)) bench.go(c);
     const std::vector<Candidate> locks = of(all, FaultKind::locked, joint);
-    for (const double t : onsets_of(locks, common, kOnsets)) bench.go({FaultKind::locked, joint, t});
+    for (const double t : onsets_of(locks, common, kOnsets))
+      bench.go({FaultKind::locked, joint, t,
+                moves_from(fit, j, t + reach_s(fit.model().setting)).value_or(kNeverEnds)});
     for (const Candidate& c : locks)
       if (c.end_s < kNeverEnds) bench.go(c);
     for (const Candidate& c : of(all, FaultKind::stuck_encoder, joint)) bench.go(c);
@@ -195,14 +198,16 @@ double most_of_a_push(const LogFit& fit, const FaultHypothesis& h) {
 
 /// Returns the kinds that resemble a fault in the rows of its joint: they are judged at its onset and end. A
 /// joint at rest is locked, or its encoder is stuck. A short disturbance of the torque is a push, a moment
-/// without torque (a joint that falls to its end stop), or an offset of the torque.
+/// without torque (a joint that falls to its end stop), or an offset of the torque. Torque that has no effect
+/// for long is lost, or a lock withstands it.
 std::vector<FaultKind> rivals_of(const FaultClaim& claim) {
   const FaultKind kind = column_kind(claim.kind);
   std::vector<FaultKind> alike = {FaultKind::locked, FaultKind::stuck_encoder};
   if (kind != FaultKind::locked && kind != FaultKind::stuck_encoder) {
     alike = {FaultKind::collision, FaultKind::torque_loss, FaultKind::torque_sensor_error};
-    if (claim.end_s - claim.onset_s > kLongestBlow_s || std::ranges::find(alike, kind) == alike.end())
-      return {};
+    if (std::ranges::find(alike, kind) == alike.end()) return {};
+    const bool is_brief = claim.end_s - claim.onset_s <= kLongestBlow_s;
+    if (!is_brief) return {FaultKind::locked};
   }
   std::erase(alike, kind);
   return alike;

@@ -8,8 +8,8 @@
 #include "lib/balance/likely_states.hpp"
 #include "lib/balance/regress.hpp"
 #include "lib/core/statistics.hpp"
-#include "lib/explain/search/search.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
+#include "lib/explain/search/standstill.hpp"
 #include "lib/explain/search/white_search.hpp"
 
 namespace faultline {
@@ -20,8 +20,6 @@ using Eigen::VectorXd;
 constexpr int kRounds = 6;              // of spans and size in turn, at most
 constexpr double kAbsentShare = 0.7;    // share of the evidence that an absent fault would give
 constexpr double kSurelyLasts_s = 5.0;  // s after the onset or the start of the log in which the fault lasts
-constexpr int kRestRows = 8;            // rows that give the position of a locked joint
-constexpr int kMovesRows = 3;           // rows in succession that show that it moves again
 
 /// The log explained by a fault that is present in some spans.
 struct SpanFit {
@@ -124,27 +122,6 @@ Spans settled_spans(const LogFit& fit, const FaultClaim& claim, const LinearFaul
   const Explanation e = explained(fit, fault, spans);
   const double price = kEndEvidence * std::max(1.0, e.mean_square());
   return {spans, e.size, e.log_likelihood - 2.0 * price * static_cast<double>(spans.size())};
-}
-
-/// Returns when a joint (from 0) that is locked from `from_s` on moves again, with its spring or without,
-/// since the lock may be on either side of it.
-std::optional<double> moves_from(const LogFit& fit, int j, double from_s) {
-  const auto [place, tolerance] = standstill(fit, j);
-  const VectorXd q = fit.rows().q.col(j);
-  const int first = fit.first_row(from_s);
-  const int rest_rows = std::min(kRestRows, fit.count() - first);
-  if (rest_rows < kMovesRows) return std::nullopt;
-  const auto rest_of = [&](const VectorXd& values) {
-    return upper_median({values.data() + first, values.data() + first + rest_rows});
-  };
-  const double rest = rest_of(place), q_rest = rest_of(q);
-  int moving = 0;
-  for (int k = first; k < fit.count(); ++k) {
-    const double off = std::min(std::abs(place[k] - rest), std::abs(q[k] - q_rest));
-    moving = off > tolerance ? moving + 1 : 0;
-    if (moving == kMovesRows) return fit.time_s()[k - kMovesRows + 1];
-  }
-  return std::nullopt;
 }
 
 /// Returns when an encoder that is stuck from `from_s` on gives another code; `from_s` if it is not stuck.

@@ -2,8 +2,10 @@
 #include "lib/model/model_files.hpp"
 
 #include "lib/cases/case_file.hpp"
+#include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/hash.hpp"
+#include "lib/model/model_text.hpp"
 
 namespace faultline {
 namespace {
@@ -39,6 +41,15 @@ ModelFiles load_model_files(const std::string& model, const std::string& cases) 
                     "one copy, or learn again, which keeps confirmed cases; `faultline cases import FILE "
                     "--model MODEL` binds exported cases to a model");
   return files;
+}
+
+bool sign_model(const std::string& path, const std::string& why) {
+  const std::string text = read_file(path);
+  const std::string accepted = signed_model_text(text, why, path);
+  model_from_json(accepted, path);
+  if (accepted == text) return false;
+  write_file(path, accepted);
+  return true;
 }
 
 std::vector<std::string> notes_of(const Model& model) {

@@ -92,12 +92,12 @@ TEST_F(StopCommand, ARobotFileMayNameTheColumn) {
   const std::string log = with_column("estop", [](double t) { return t < 9.5 ? "0" : "1"; });
   Robot robot = preset_robot("RRP");
   robot.log.columns["stop"].name = "estop";
-  const auto asked = stop_question(log, {}, robot, "", "");
+  const auto asked = stop_question(stop_log(log, {}, {}), robot, "", "");
   ASSERT_TRUE(asked);
   EXPECT_NEAR(asked->time_s, 9.5, kPeriod_s);
   EXPECT_EQ(asked->column, "estop");
-  EXPECT_FALSE(stop_question(log_, {}, robot, "", "")) << "a log without the column is not asked about";
-  EXPECT_EQ(stop_question(log, {}, robot, "3.5", "")->time_s, 3.5);
+  EXPECT_FALSE(stop_question(stop_log(log_, {}, {}), robot, "", "")) << "a log without the column is not asked about";
+  EXPECT_EQ(stop_question(stop_log(log, {}, {}), robot, "3.5", "")->time_s, 3.5);
 }
 
 TEST_F(StopCommand, AMissingColumnIsNamedWithTheOthers) {

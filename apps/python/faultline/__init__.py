@@ -11,12 +11,15 @@ onnx are imported only by what needs them.
 """
 from . import cases, golden
 from ._batch import BatchResult, batch, merge_batches
+from ._comparison import Comparison, compare
+from ._conversion import Conversion, convert
 from ._diagnosis import Curves, Diagnosis, Fault, diagnose
 from ._faultline import version as __version__
+from ._history import History, history
 from ._identification import Identification, identify
 from ._inspection import Inspection, inspect
 from ._log import Log, open_log
-from ._model import Learned, Model, learn, load_model
+from ._model import Learned, Model, learn, load_model, sign_model
 from ._onnx import OnnxFile
 from ._record import Record
 from ._simulation import reproduce, simulate
@@ -24,10 +27,13 @@ from .errors import Error, InputError, InternalError, OutputError, UsageError
 
 __all__ = [
     "BatchResult",
+    "Comparison",
+    "Conversion",
     "Curves",
     "Diagnosis",
     "Error",
     "Fault",
+    "History",
     "Identification",
     "InputError",
     "Inspection",
@@ -42,8 +48,11 @@ __all__ = [
     "__version__",
     "batch",
     "cases",
+    "compare",
+    "convert",
     "diagnose",
     "golden",
+    "history",
     "identify",
     "inspect",
     "learn",
@@ -51,5 +60,6 @@ __all__ = [
     "merge_batches",
     "open_log",
     "reproduce",
+    "sign_model",
     "simulate",
 ]

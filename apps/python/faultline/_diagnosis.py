@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Diagnosing a log."""
+import html
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 
 from . import _faultline
@@ -115,10 +116,41 @@ class Diagnosis(Result):
         """The course of the run as arrays, in at most so many bins. Reads the log once more."""
         return Curves(self._made.curves(bins, progress))
 
-    def _repr_html_(self) -> str:
-        import html
+    def plot(self, *, bins: int = 500, progress: Progress = None) -> Any:
+        """A matplotlib Figure with the residuals of all joints and the faults. Reads the log once more."""
+        from ._plot import figure_of
 
-        return f"<pre>{html.escape(self.text())}</pre>"
+        return figure_of(self, self.curves(bins=bins, progress=progress))
+
+    def _repr_html_(self) -> str:
+        """The verdict and a table of the faults, for notebooks."""
+        heads = ("fault", "joint", "from, s", "to, s", "confidence", "next check")
+        rows = [
+            (
+                fault.kind.replace("_", " "),
+                "" if fault.joint is None else str(fault.joint),
+                _seconds(fault.onset_s),
+                "end of log" if fault.end_s is None else _seconds(fault.end_s),
+                f"{fault.confidence:.2f}",
+                fault.next_check or "",
+            )
+            for fault in self.faults
+        ]
+        table = _row("th", heads) + "".join(_row("td", row) for row in rows) if rows else ""
+        missing = "".join(f"<li>{html.escape(each)}</li>" for each in self.cannot_see)
+        return (
+            f"<p><b>{html.escape(self.sentence)}</b></p>"
+            + (f"<table>{table}</table>" if table else "")
+            + (f"<details><summary>What this log cannot show</summary><ul>{missing}</ul></details>" if missing else "")
+        )
+
+
+def _seconds(value: Optional[float]) -> str:
+    return "" if value is None else f"{value:.3f}"
+
+
+def _row(tag: str, cells: Tuple[str, ...]) -> str:
+    return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
 
 
 def diagnose(
@@ -129,19 +161,40 @@ def diagnose(
     classify: str = "evidence",
     criterion: str = "log_odds",
     g: int = 0,
+    at: Union[float, str, None] = None,
+    stop: Optional[str] = None,
+    mcap: Optional[PathLike] = None,
     progress: Progress = None,
 ) -> Diagnosis:
     """Finds the faults in one log. `model` is a Model, or the path of one with its case base `cases` (beside
     it by default). `classify` is evidence or samples (the method of the paper, with `criterion` log_odds or
-    consecutive and `g`)."""
+    consecutive and `g`). `at` is the moment of a stop, in seconds of the log or as a date with a time, `stop`
+    the column whose first change is that moment: the diagnosis then says what changed before it. `mcap` is a
+    file for the log with predictions, residuals, evidence and events."""
     from ._model import Model
 
     loaded = model if isinstance(model, Model) else Model(path_of(model), cases=cases)
-    return loaded.diagnose(log, classify=classify, criterion=criterion, g=g, progress=progress)
+    return loaded.diagnose(
+        log, classify=classify, criterion=criterion, g=g, at=at, stop=stop, mcap=mcap, progress=progress
+    )
 
 
 def diagnosed(
-    log: LogLike, handle: Any, classify: str, criterion: str, g: int, progress: Progress
+    log: LogLike,
+    handle: Any,
+    classify: str,
+    criterion: str,
+    g: int,
+    at: Union[float, str, None],
+    stop: Optional[str],
+    mcap: Optional[PathLike],
+    progress: Progress,
 ) -> Diagnosis:
     """The same with a model of the compiled part."""
-    return Diagnosis(_faultline.diagnose(log_of(log)._handle, handle, classify, criterion, g, progress))
+    moment = "" if at is None else at if isinstance(at, str) else repr(float(at))
+    made = _faultline.diagnose(
+        log_of(log)._handle, handle, classify, criterion, g, moment, stop or "", progress
+    )
+    if mcap is not None:
+        made.record(path_of(mcap), progress)
+    return Diagnosis(made)

@@ -123,10 +123,13 @@ class Model:
         classify: str = "evidence",
         criterion: str = "log_odds",
         g: int = 0,
+        at: Union[float, str, None] = None,
+        stop: Optional[str] = None,
+        mcap: Optional[PathLike] = None,
         progress: Progress = None,
     ) -> Diagnosis:
         """Finds the faults in one log; see faultline.diagnose."""
-        return diagnosed(log, self._handle, classify, criterion, g, progress)
+        return diagnosed(log, self._handle, classify, criterion, g, at, stop, mcap, progress)
 
     def robot_text(self) -> str:
         """The identified robot as a robot file."""
@@ -215,6 +218,12 @@ class Learned(MadeResult):
 def load_model(path: PathLike, *, cases: Optional[PathLike] = None) -> Model:
     """Reads a model and its case base."""
     return Model(path, cases=cases)
+
+
+def sign_model(path: PathLike, *, why: str = "") -> bool:
+    """Accepts a model file that was edited by hand, in place; each report made with it then states that it was
+    edited and `why`. Returns False for a file that was not edited, which stays as it is."""
+    return bool(_faultline.sign_model(path_of(path), why))
 
 
 def learn(

@@ -10,6 +10,7 @@
 #include "lib/explain/free_form.hpp"
 #include "lib/explain/judge/judge_force.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
+#include "lib/explain/search/standstill.hpp"
 
 namespace faultline {
 namespace {
@@ -21,42 +22,31 @@ constexpr double kClippedDoubt = 0.02, kPriceOfClipping = 100.0;  // of the torq
 constexpr double kLeastClip = 0.04;  // share of the greatest torque: a joint that gets less swings freely
 constexpr double kSurely = 4.0;      // standard deviations within which remaining friction may be negative
 
-constexpr int kSamplesBefore = 20;    // samples before an onset that show whether the joint comes to rest
-constexpr double kComesToRest = 0.3;  // share of them that repeat a code if the joint comes to rest
-constexpr double kJolt = 3.0;         // times the joint's usual torque: that of a halt
+constexpr int kSamplesBefore = 20;       // samples before an onset that show whether the joint comes to rest
+constexpr double kComesToRest = 0.3;     // share of them that repeat a code if the joint comes to rest
+constexpr std::size_t kFewestStill = 5;  // rows in which a joint must stand still
+constexpr double kJolt = 3.0;            // times the joint's usual torque: that of a halt
 constexpr double kRests = 0.02;      // of the joint's greatest healthy speed: a joint at rest is slower (rms)
 constexpr double kSettles_s = 0.02;  // s after the onset until a locked joint stands still
 constexpr double kStillVelocity = 0.1;  // of the noise of the velocity: a smaller change is none
 constexpr double kShakes = 0.05;        // share of the evidence of a lock that its shaking adds, at most
 constexpr double kCoupled = 0.1;  // share of a joint's usual torque that the motion of another joint gives
-constexpr double kYields = 2e-3;  // of a joint's range: a lock yields less to the torque
-
-/// Returns the compliance of a lock, rad per N m or m per N, by which its brake or jammed gear yields to the
-/// torque; 0 if the position follows the torque further, which no lock allows. `range` is that of healthy
-/// logs.
-double compliance_of_lock(const VectorXd& q, const VectorXd& torque, double range) {
-  const VectorXd t = torque.array() - torque.mean(), p = q.array() - q.mean();
-  const double compliance = std::abs(t.dot(p)) / std::max(t.squaredNorm(), 1e-12);
-  return compliance * t.cwiseAbs().maxCoeff() < kYields * range ? compliance : 0.0;
-}
 
 /// Returns the nats by which the positions of the rows `late` speak against a joint (from 0) at rest that
-/// yields to its torque.
-double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late) {
+/// yields like this.
+double price_of_motion(const LogFit& fit, int j, const std::vector<int>& late, const Yielding& yielding) {
   const BalanceModel& m = fit.model();
-  const VectorXd q = fit.rows().q.col(j)(late), torque = fit.rows().torque.col(j)(late);
-  const double compliance =
-      std::max(m.compliance(j), compliance_of_lock(q, torque, m.q_high[j] - m.q_low[j]));
-  MatrixXd x(q.size(), compliance > 0.0 ? 2 : 1);
+  const VectorXd q = fit.rows().q.col(j)(late), load = yielding.load(late);
+  MatrixXd x(q.size(), yielding.compliance > 0.0 ? 2 : 1);
   x.col(0).setOnes();
-  if (compliance > 0.0) x.col(1) = torque;
+  if (yielding.compliance > 0.0) x.col(1) = load;
   const MatrixXd xx = x.transpose() * x + 1e-12 * MatrixXd::Identity(x.cols(), x.cols());
   const VectorXd off = q - x * xx.ldlt().solve(x.transpose() * q);
   const bool slide = m.rigid.chain.geometry[j].kind == AxisKind::prismatic;
   double std = 3.0 * (std::max(m.q_noise[j] * fit.loudness()[j], 1e-6) *
                           gaussian_kernel(m.setting.kernel_s, m.setting.period_s).norm() +
                       (slide ? 3e-6 : 1e-5));
-  if (compliance > 0.0) std += 0.15 * compliance * torque.cwiseAbs().maxCoeff();
+  std += 0.15 * yielding.compliance * load.cwiseAbs().maxCoeff();
   return 0.5 * (off / std).array().square().operator-(1.0).max(0.0).sum();
 }
 
@@ -136,6 +126,16 @@ std::vector<int> rows_within(const LogFit& fit, const FaultClaim& claim) {
   return out;
 }
 
+/// Returns the nats by which the position of a joint follows its torque as a lock that yields lets it, and as
+/// a joint without torque does not.
+double price_of_following(const LogFit& fit, const FaultClaim& claim) {
+  const int j = claim.joint.index();
+  const std::vector<int> within = rows_within(fit, claim);
+  if (within.size() < kFewestStill) return 0.0;
+  return std::max(0.0, price_of_motion(fit, j, within, yielding_of_gear(fit, j)) -
+                           price_of_motion(fit, j, within, yielding_of_lock(fit, j, within)));
+}
+
 /// Returns the columns of an impulse on each other joint when a joint halts.
 FaultColumns jolt_columns(const LogFit& fit, const FaultClaim& claim) {
   const int rows = fit.count(), n = fit.joints();
@@ -164,8 +164,8 @@ std::optional<FaultHypothesis> judge_silent(const LogFit& fit, const FaultClaim&
   double price = kForcedRow * lost;
   if (claim.kind == FaultKind::locked) {
     const std::vector<int> within = rows_within(fit, claim);
-    if (within.size() < 5) return std::nullopt;
-    price = price_of_motion(fit, j, within) + kStillJoint;
+    if (within.size() < kFewestStill) return std::nullopt;
+    price = price_of_motion(fit, j, within, yielding_of_lock(fit, j, within)) + kStillJoint;
     if (same > kStuckShare && telling) price += kRepeatedReading * samples;
   } else if (claim.kind == FaultKind::stuck_encoder) {
     price = kStillJoint + price_of_unseen_motion(fit, j, dropped);
@@ -218,9 +218,11 @@ FaultHypothesis judge_linear(const LogFit& fit, const LinearFault& fault, FaultC
   Explanation e = fit.explain_with_piece(fit.residual(), columns, fault.starts, claim.onset_s);
   claim.kind = fault.kind;
   claim.grows = fault.columns.grow;
-  const double shrinking = price_of_shrinking(fit, claim, e),
-               price = price_of_size(fit, fault, claim, e) + shrinking;
   if (fault.kind == FaultKind::torque_loss && e.size[0] > kFreeShare) claim.kind = FaultKind::free_swinging;
+  const double shrinking = price_of_shrinking(fit, claim, e);
+  double price = price_of_size(fit, fault, claim, e) + shrinking;
+  if (claim.kind == FaultKind::free_swinging || claim.kind == FaultKind::torque_sensor_error)
+    price += price_of_following(fit, claim);
   FaultHypothesis out = hypothesis(fit, claim, std::move(e), price);
   out.shrinking = shrinking;
   return out;

@@ -10,6 +10,7 @@
 #include "lib/core/elementary/elementary.hpp"
 #include "lib/core/statistics.hpp"
 #include "lib/explain/search/sensor_jumps.hpp"
+#include "lib/explain/search/standstill.hpp"
 #include "lib/robot/dynamics.hpp"
 
 namespace faultline {
@@ -22,11 +23,6 @@ using Eigen::VectorXd;
 constexpr std::array kBlows_s{.02, .05, .1, .25};  // lengths of a collision
 constexpr std::array kLengths_s{.3, 1., 3.};       // lengths of faults that end
 constexpr double kEndsScore = 10.0;                // nats by which an end must explain more in the search
-constexpr double kRest_s = 0.15;       // at the end of a log that gives the position of a joint at rest
-constexpr double kSurelyStands = 8.0;  // standard deviations of a position within which a joint stands still
-constexpr double kSpringDoubt = 0.3;   // share of a gear spring's deflection: error of its model
-constexpr double kLeastTolerance = 1e-5;  // rad or m that a joint may move while it stands
-constexpr double kLeastNoise = 1e-6;      // rad or m: noise of a position, at least
 constexpr double kJumpScore = 10.0,
                  kRepeatScore = 1e3;  // nats: repeats are judged first, jumps if little else stands out
 constexpr double kShift = 1e-3;       // rad or m of a numeric derivative
@@ -82,15 +78,9 @@ std::vector<Candidate> search_collision(const WhiteSearch& s) {
   return out;
 }
 
-/// Returns onsets of a lock: since when joint `j` (from 0) stands still except for its spring.
+/// Returns onsets of a lock: since when joint `j` (from 0) stands still (still_since()).
 std::vector<Candidate> search_standstill(const LogFit& fit, int j) {
-  const double row_s = fit.model().setting.row_s();
-  const Standstill stands = standstill(fit, j);
-  const int tail = std::min(fit.count(), static_cast<int>(kRest_s / row_s) + 3);
-  const double rest =
-      upper_median({stands.place.data() + fit.count() - tail, stands.place.data() + fit.count()});
-  int since = fit.count();
-  while (since > 0 && std::abs(stands.place[since - 1] - rest) <= stands.tolerance) --since;
+  const int since = still_since(fit, j);
   std::vector<Candidate> out;
   for (const int before : {0, 2, 5}) {
     const int row = std::clamp(since - before, first_onset_row(fit, FaultKind::locked), fit.count() - kTail);
@@ -279,17 +269,6 @@ std::vector<Candidate> search_drifts(const WhiteSearch& s) {
   std::vector<Candidate> out;
   for (int j = 0; j < s.fit.joints(); ++j) append(search_drift(s, inertia[j], j), out);
   return out;
-}
-
-Standstill standstill(const LogFit& fit, int j) {
-  const BalanceModel& m = fit.model();
-  const double compliance = m.compliance(j);
-  const VectorXd torque = fit.rows().torque.col(j);
-  const double noise = std::max(m.q_noise[j] * fit.loudness()[j], kLeastNoise) *
-                       gaussian_kernel(m.setting.kernel_s, m.setting.period_s).norm();
-  return {fit.rows().q.col(j) - compliance * torque,
-          kSurelyStands * noise + kLeastTolerance +
-              kSpringDoubt * compliance * (torque.maxCoeff() - torque.minCoeff())};
 }
 
 std::vector<Candidate> search(const LogFit& fit) {

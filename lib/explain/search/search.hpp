@@ -15,13 +15,4 @@ std::vector<Candidate> search(const LogFit& fit);
 /// friction at the true velocity, the growing error of the position and the jump of the velocity.
 std::vector<Candidate> search_drifts(const WhiteSearch& search);
 
-/// Position of a joint without the deflection of its spring, and its apparent motion while it stands still.
-struct Standstill {
-  Eigen::VectorXd place;  ///< by row, rad or m
-  double tolerance = 0.0;
-};
-
-/// Returns that of joint `j` (from 0).
-Standstill standstill(const LogFit& fit, int j);
-
 }  // namespace faultline

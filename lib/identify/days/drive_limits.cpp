@@ -22,7 +22,6 @@ constexpr int kFewestBeyond = 20;     // rows beyond a limit
 constexpr int kTried = 60;            // limits, at equal steps of the rank of the torque
 constexpr double kNearFirst = 0.8;  // least ratio of the limit and the smallest command beyond it, either way
 constexpr double kMostLeft = 0.03;  // squared deviation from the limit, over that of the excess from its mean
-constexpr double kLeastBeyond = 4.0;   // times the residual below the limit: excess of the command, rms
 constexpr double kClearLimit = 20.0;   // nats over a robot without limit, from rows that are not independent
 constexpr double kLimitRidge = 1e-9;   // relative, on the diagonal: columns that the motions do not separate
 constexpr double kZeroColumn = 1e-30;  // on the diagonal: keeps columns of zeros regular
@@ -89,7 +88,8 @@ struct TriedLimit {
 
 /// Returns the limit of the torque from row `begin` on, if these rows show one: the robot `below`, fitted to
 /// the rows before, needs that torque there whatever is commanded. A load, in contrast, adds about the same
-/// to a torque that varies.
+/// to a torque that varies. What a joint at rest needs is constant as well, so the deviation from the limit
+/// counts as no smaller than the residual of the rows before.
 std::optional<TriedLimit> limit_at(const JointBalances& all, const Sums& below, Eigen::Index begin) {
   const VectorXd theta = below.solution();
   const double left_below = std::max(below.left(theta), 0.0);
@@ -103,8 +103,7 @@ std::optional<TriedLimit> limit_at(const JointBalances& all, const Sums& below, 
                usual = left_below / static_cast<double>(begin) * static_cast<double>(beyond),
                first = std::abs(all.torque[begin]);
   const bool shows = limit > kNearFirst * first && limit * kNearFirst < first &&
-                     excess.squaredNorm() > kLeastBeyond * kLeastBeyond * usual &&
-                     at_limit < kMostLeft * (excess.array() - excess.mean()).square().sum();
+                     std::max(at_limit, usual) < kMostLeft * (excess.array() - excess.mean()).square().sum();
   if (!shows) return std::nullopt;
   return TriedLimit{limit, left_below + at_limit};
 }

@@ -28,6 +28,99 @@ class Inspecting(InFolder):
         self.assertEqual(faultline.inspect({"a": [1.0, 2.0]}).verdict, "no_joint_log")
 
 
+class Comparing(InFolder):
+    FIRST, SECOND = LOGS / "healthy_quintic.csv", LOGS / "locked_1.csv"
+
+    def test_a_comparison_has_the_bytes_of_the_programs(self):
+        for options, model in (((), None), (("--model", MODEL), MODEL)):
+            made = faultline.compare(self.FIRST, self.SECOND, model=model)
+            for option, text in (("--json", made.to_json()), ("--html", made.to_html())):
+                theirs = program("compare", self.FIRST, self.SECOND, *options, option, "-")
+                self.assertEqual(text.encode(), theirs, option)
+            self.assertEqual(made.text().encode(), program("compare", self.FIRST, self.SECOND, *options))
+            self.assertFalse(made.same)
+        self.assertIn("residual", set(made.to_dataframe()["quantity"]))
+
+    def test_a_run_is_the_same_as_itself_as_a_frame(self):
+        self.assertTrue(faultline.compare(self.FIRST, columns(self.FIRST), model=load_model()).same)
+
+    def test_an_unknown_alignment_is_refused(self):
+        with self.assertRaisesRegex(faultline.UsageError, "auto, time or motion"):
+            faultline.compare(self.FIRST, self.SECOND, align="phase")
+
+
+class Converting(InFolder):
+    def test_a_converted_log_has_the_bytes_of_the_programs(self):
+        log = LOGS / "locked_1.csv"
+        report = self.folder / "report.json"
+        report.write_bytes(program("diagnose", log, "--model", MODEL, "--cases", CASES, "--json", "-"))
+        for name, options in (("run.flog", {}), ("run.mcap", {"diagnosis": report})):
+            mine, theirs = self.folder / f"mine_{name}", self.folder / f"theirs_{name}"
+            made = faultline.convert(log, mine, **options)
+            given = [word for option, value in options.items() for word in (f"--{option}", value)]
+            program("convert", log, theirs, *given)
+            self.assertEqual(mine.read_bytes(), theirs.read_bytes(), name)
+            self.assertEqual((made.path, made.rows_read, made.rows_written), (str(mine), *[made.rows_read] * 2))
+            self.assertFalse(made.lost_values)
+
+    def test_a_frame_with_missing_values_is_written_with_what_was_lost(self):
+        frame = columns(LOGS / "locked_1.csv")
+        frame["t"][5] = float("nan")
+        made = faultline.convert(frame, self.folder / "run.csv")
+        self.assertTrue(made.lost_values)
+        self.assertEqual(made.rows_written, made.rows_read - 1)
+
+    def test_a_log_is_not_replaced_by_its_copy(self):
+        log = self.folder / "run.csv"
+        shutil.copy(LOGS / "locked_1.csv", log)
+        before = log.read_bytes()
+        with self.assertRaisesRegex(faultline.UsageError, "run.csv"):
+            faultline.convert(log, log)
+        with self.assertRaisesRegex(faultline.UsageError, "only a .mcap"):
+            faultline.convert(log, self.folder / "out.csv", diagnosis=self.report_of(log))
+        self.assertEqual(log.read_bytes(), before)
+        self.assertFalse((self.folder / "out.csv").exists())
+
+    def report_of(self, log):
+        report = self.folder / "report.json"
+        report.write_text(load_model().diagnose(log).to_json())
+        return report
+
+
+class Histories(InFolder):
+    def test_a_history_has_the_bytes_of_the_programs_and_grows(self):
+        model = load_model()
+        first, second = self.folder / "first.json", self.folder / "second.json"
+        first.write_text(model.diagnose(LOGS / "healthy_quintic.csv").to_json())
+        second.write_text(model.diagnose(LOGS / "locked_1.csv").to_json())
+        mine, theirs = self.folder / "mine.sqlite", self.folder / "theirs.sqlite"
+        made = faultline.history(mine, [first])
+        self.assertEqual((made.added, made.replaced, made.known), (1, 0, 0))
+        made = faultline.history(mine, [first, second])
+        self.assertEqual((made.added, made.replaced, made.known), (1, 0, 1))
+        json = program("history", first, second, "--db", theirs, "--json", "-")
+        self.assertEqual(made.to_json().encode(), json)
+        self.assertEqual(made.to_html().encode(), program("history", "--db", theirs, "-o", "-"))
+        self.assertEqual(made.text().encode(), program("history", "--db", theirs))
+        self.assertEqual(list(made.to_dataframe()["robot"]), [model.name])
+        self.assertEqual(faultline.history(mine).to_json(), made.to_json())
+        with self.assertRaisesRegex(faultline.UsageError, "nobody"):
+            faultline.history(mine, robots="nobody")
+
+
+class Signing(InFolder):
+    def test_an_edited_model_is_accepted_with_the_reason(self):
+        mine, theirs = self.folder / "mine.json", self.folder / "theirs.json"
+        for model in (mine, theirs):
+            model.write_text(MODEL.read_text().replace('"q_noise": [', '"q_noise":  ['))
+        with self.assertRaises(faultline.InputError):
+            faultline.load_model(mine, cases=CASES)
+        self.assertTrue(faultline.sign_model(mine, why="a space for the test"))
+        program("model", "sign", theirs, "--why", "a space for the test")
+        self.assertEqual(mine.read_bytes(), theirs.read_bytes())
+        self.assertFalse(faultline.sign_model(mine))
+
+
 class Simulating(InFolder):
     def test_simulated_logs_have_the_bytes_of_the_programs(self):
         spec = self.folder / "spec.toml"

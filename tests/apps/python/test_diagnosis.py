@@ -42,6 +42,50 @@ class Reports(InFolder):
         options = ("--classify", "samples", "--criterion", "consecutive", "--g", "3", "--json", "-")
         self.assertEqual(diagnosis.to_json().encode(), self.by_program(log, *options))
 
+    def test_a_recording_has_the_bytes_of_the_programs(self):
+        log, mine, theirs = LOGS / "locked_1.csv", self.folder / "mine.mcap", self.folder / "theirs.mcap"
+        self.model.diagnose(log, mcap=mine)
+        self.by_program(log, "--mcap", theirs)
+        self.assertEqual(mine.read_bytes(), theirs.read_bytes())
+        with self.assertRaisesRegex(faultline.UsageError, "locked_1.csv"):
+            self.model.diagnose(log, mcap=log)
+
+    def test_a_stop_is_answered_as_the_program_does(self):
+        log = LOGS / "locked_1.csv"
+        asked = self.model.diagnose(log, at=9)
+        self.assertEqual(asked.to_json().encode(), self.by_program(log, "--at", "9", "--json", "-"))
+        self.assertEqual(asked.stop.time_s, 9)
+        frame = columns(log)
+        frame["estop"] = [float(t >= 9) for t in frame["t"]]
+        self.assertAlmostEqual(self.model.diagnose(frame, stop="estop").stop.time_s, 9, delta=0.1)
+        with self.assertRaisesRegex(faultline.UsageError, "no moment"):
+            self.model.diagnose(log, at="noon")
+
+    def test_a_notebook_shows_the_verdict_and_a_table_of_faults(self):
+        faulty = self.model.diagnose(LOGS / "locked_1.csv")
+        shown = faulty._repr_html_()
+        self.assertEqual(shown.count("<tr>"), 1 + len(faulty.faults))
+        self.assertIn("<td>locked</td><td>1</td>", shown)
+        self.assertNotIn("<table>", self.model.diagnose(LOGS / "healthy_quintic.csv")._repr_html_())
+
+    def test_names_in_a_notebook_are_text(self):
+        frame = faultline.Log(columns(LOGS / "locked_1.csv"), name="<script>alert(1)</script>")
+        self.assertNotIn("<script>", self.model.diagnose(frame)._repr_html_())
+
+    def test_a_plot_has_an_axis_for_each_joint_and_marks_the_fault(self):
+        try:
+            import matplotlib  # noqa: F401
+        except ImportError:
+            self.skipTest("needs python3-matplotlib")
+        diagnosis = self.model.diagnose(LOGS / "locked_1.csv")
+        figure = diagnosis.plot()
+        axes = figure.get_axes()
+        self.assertEqual([axis.get_ylabel() for axis in axes], ["joint 1", "joint 2", "joint 3"])
+        marked = [line.get_xdata()[0] for line in axes[0].get_lines() if line.get_label() == "locked"]
+        self.assertEqual(marked, [diagnosis.faults[0].onset_s])
+        self.assertFalse([line for line in axes[1].get_lines() if line.get_label() == "locked"])
+        self.assertEqual(figure._repr_png_()[:4], b"\x89PNG")
+
     def test_attributes_have_the_names_of_the_json(self):
         diagnosis = faultline.diagnose(LOGS / "locked_1.csv", MODEL, cases=CASES)
         self.assertEqual(diagnosis.verdict, "faulty")
