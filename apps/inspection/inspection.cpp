@@ -101,6 +101,7 @@ Inspection inspect_joint_log(MappedSource& mapped, const std::vector<RawColumn>&
   QualityOptions options;
   if (is_its_robot) options.slides = sliding_joints(robot->chain);
   options.runs = source->identity().runs;
+  options.stated_units = source->identity().stated_units;
   inspection.quality = quality_of(state, options);
   inspection.issues = source->issues();
   inspection.issues.merge(inspection.quality.issues);

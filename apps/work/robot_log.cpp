@@ -17,6 +17,7 @@ std::unique_ptr<LogSource> robot_log_of(std::unique_ptr<RawReader> reader, const
   options.columns = robot.log.columns;
   options.run = run;
   options.keep_extra = false;
+  options.keep_partial_velocity = false;
   std::unique_ptr<LogSource> log =
       coupled(mended(std::make_unique<MappedSource>(std::move(reader), options), sliding_joints(robot.chain)),
               robot.log.coupling);

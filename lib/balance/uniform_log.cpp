@@ -73,9 +73,11 @@ std::vector<bool> without_short_gaps(std::vector<bool> lost, int most) {
 struct PlacedRows {
   std::vector<int> row;
   SampleGrid grid;
+
+  bool suffice() const { return grid.points() >= 2; }
 };
 
-PlacedRows placed(const Log& all, const std::string& path, double period_s) {
+PlacedRows placed(const Log& all, double period_s) {
   PlacedRows out;
   std::vector<double> time;
   for (int row = 0; row < all.rows(); ++row) {
@@ -87,9 +89,13 @@ PlacedRows placed(const Log& all, const std::string& path, double period_s) {
   for (std::size_t j = 0; j < positions.size(); ++j)
     for (const int row : out.row) positions[j].push_back(all.q[j][row]);
   out.grid = sample_grid(time, period_s, row_steps(positions));
-  if (out.grid.points() < 2)
-    throw Error(ErrorCode::input, path, "has fewer than two rows with all values; nothing can be said of it");
   return out;
+}
+
+[[noreturn]] void refuse_too_few_rows(const std::string& path) {
+  throw Error(ErrorCode::input, path,
+              "has fewer than two rows in which each joint has a position, a torque and, if the log records "
+              "velocities, a velocity; `faultline inspect` lists which columns lack values");
 }
 
 UniformLog on_grid(const Log& all, const PlacedRows& placed) {
@@ -131,9 +137,15 @@ int UniformLog::first_row(double at_s) const {
   return row;
 }
 
+std::optional<UniformLog> uniform_rows(const Log& all, double period_s) {
+  const PlacedRows rows = placed(all, period_s);
+  return rows.suffice() ? std::optional(on_grid(all, rows)) : std::nullopt;
+}
+
 UniformLog uniform_log(LogSource& log, double period_s) {
-  const Log all = read_all(log);
-  return on_grid(all, placed(all, log.identity().path, period_s));
+  std::optional<UniformLog> out = uniform_rows(read_all(log), period_s);
+  if (!out) refuse_too_few_rows(log.identity().path);
+  return std::move(*out);
 }
 
 MeasuredMotion reading_of(const UniformLog& log, int j) {
@@ -186,7 +198,8 @@ std::vector<UniformLog> uniform_logs(std::span<LogSource* const> logs) {
   std::vector<PlacedRows> rows;
   std::vector<double> periods;
   for (std::size_t k = 0; k < logs.size(); ++k) {
-    rows.push_back(placed(read[k], logs[k]->identity().path, usual));
+    rows.push_back(placed(read[k], usual));
+    if (!rows.back().suffice()) refuse_too_few_rows(logs[k]->identity().path);
     periods.push_back(rows.back().grid.period_s);
   }
   const double period = std::round(upper_median(std::move(periods)) / kPeriodGrid_s) * kPeriodGrid_s;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,8 +35,10 @@ struct MeasuredMotion {
 
 MeasuredMotion reading_of(const UniformLog& log, int j);
 
-/// Reads the whole log onto a grid of about `period_s` that begins with its first row; each row goes to its
-/// most likely point (see sample_grid). Throws Error(input) when fewer than two rows have all values.
+/// Returns the rows on a grid of about `period_s` that begins with the first row; each row goes to its most
+/// likely point (see sample_grid). Empty if fewer than two rows have all values.
+std::optional<UniformLog> uniform_rows(const Log& all, double period_s);
+/// Reads the whole log onto such a grid. Throws Error(input) when fewer than two rows have all values.
 UniformLog uniform_log(LogSource& log, double period_s);
 
 /// Returns means of `samples` rows each, for rows so fine that the kernels do not distinguish them. A mean is

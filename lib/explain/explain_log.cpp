@@ -191,7 +191,10 @@ UniformLog averaged_as(const UniformLog& log, const RobotRows& robot) {
 
 bool can_explain(const UniformLog& log, const RobotRows& robot) {
   if (std::holds_alternative<OneStepModel>(robot)) return log.rows() >= kFewestCoarse;
-  return log.rows() * log.period_s >= kShortest_s;
+  const RowSetting& setting = std::get<BalanceModel>(robot).setting;
+  const int rows =
+      log.rows() / std::max(1, setting.averaged);  // a short part of a log may show another period
+  return std::min(log.rows() * log.period_s, rows * setting.period_s) >= kShortest_s;
 }
 
 ExplainedLog explain_whole_log(const UniformLog& log, const ExplainModel& model,

@@ -130,7 +130,8 @@ class Matcher {
     else if (!known && spec.unit.empty())
       note("unit_unknown", name, Severity::warning, unknown_unit_sentence(names_[column], header_unit, name));
     refuse_misfit(column >= 0 ? columns_[column] : RawColumn{kRowNumberName, ""}, spec, channel, path_);
-    matching_.channels.push_back({channel, column, -1, spec.sign * spec.scale * factor, spec.offset});
+    matching_.channels.push_back({channel, column, -1, spec.sign * spec.scale * factor, spec.offset,
+                                  !spec.unit.empty() || (!header_unit.empty() && si_factor(header_unit))});
     taken_.insert(channel);
     used_.insert(column);
   }
@@ -353,6 +354,29 @@ class Matcher {
 
 Matching match_columns(const std::vector<RawColumn>& columns, const ColumnMap& map, const std::string& path) {
   return Matcher(columns, map, path).run();
+}
+
+Matching without_partial_velocity(Matching matching) {
+  const auto is_velocity = [](const ChannelSource& source) {
+    return source.channel.quantity == Quantity::dq;
+  };
+  std::set<Joint> measured;
+  for (const ChannelSource& source : matching.channels)
+    if (is_velocity(source)) measured.insert(source.channel.joint);
+  if (measured.empty() || std::ssize(measured) == matching.joints) return matching;
+  std::vector<std::string> missing;
+  for (int j = 0; j < matching.joints; ++j)
+    if (const Joint joint = Joint::at(j); !measured.contains(joint))
+      missing.push_back(to_string({Quantity::dq, joint}));
+  matching.issues.add(make_issue(
+      "velocities_left_out", Severity::warning,
+      fmt::format(
+          "no column for {}, so the velocities of all joints are left out and computed from positions "
+          "where they are needed; if the log has the column under another name, give it in "
+          "[log.columns]",
+          fmt::join(missing, ", "))));
+  std::erase_if(matching.channels, is_velocity);
+  return matching;
 }
 
 std::string why_no_match(const std::vector<RawColumn>& columns, const ColumnMap& map,

@@ -18,6 +18,7 @@ struct ChannelSource {
   int nanoseconds_column = -1;  ///< second column of a time in seconds and nanoseconds; -1 for none
   double gain = 1.0;
   double offset = 0.0;
+  bool unit_is_stated = false;  ///< by the header of the column or the robot file
 
   bool unchanged() const { return gain == 1.0 && offset == 0.0 && nanoseconds_column < 0; }
 };
@@ -42,6 +43,10 @@ struct Matching {
 /// if the time, every position or a mapped column is missing (naming the existing columns and the line of
 /// [log.columns] that would map one), and Error(usage) for an unknown channel or unit or a wrong sign.
 Matching match_columns(const std::vector<RawColumn>& columns, const ColumnMap& map, const std::string& path);
+
+/// Returns the channels without those of velocity if some joint has none, with an issue: stages that judge
+/// rows need the same measurements of all joints.
+Matching without_partial_velocity(Matching matching);
 
 /// Returns the error message of match_columns(), empty if it would succeed.
 std::string why_no_match(const std::vector<RawColumn>& columns, const ColumnMap& map,

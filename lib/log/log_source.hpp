@@ -16,10 +16,11 @@ namespace faultline {
 
 /// Identity of a log. `sha256`, `rows_read` and the last time are complete only after the last segment.
 struct LogIdentity {
-  std::string path;            ///< as the user gave it
-  std::string format;          ///< such as "csv"
-  std::string sha256;          ///< of the file's bytes; empty for a log that is not a file
-  std::int64_t rows_read = 0;  ///< = rows handed out + issues().rows_dropped()
+  std::string path;                         ///< as the user gave it
+  std::string format;                       ///< such as "csv"
+  std::string sha256;                       ///< of the file's bytes; empty for a log that is not a file
+  std::int64_t rows_read = 0;               ///< = rows handed out + issues().rows_dropped()
+  std::vector<std::string> stated_units{};  ///< channels whose unit the log or the robot file states
   std::vector<LogRun>
       runs{};  ///< of the log's clock; one if it never restarts, empty for a log that is not a file
 };

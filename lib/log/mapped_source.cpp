@@ -70,10 +70,11 @@ MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSource
     : reader_(std::move(reader)), options_(options) {
   options_.segment_rows = std::max(options_.segment_rows, 1);
   order_ = RowOrder(options_.run);
-  identity_ = reader_->identity();
   matching_ = match_columns(reader_->columns(), reader_->canonical() ? ColumnMap{} : options_.columns,
                             reader_->identity().path);
+  identity_ = identity_of_columns();
   if (!options_.keep_extra) matching_.extra.clear();
+  if (!options_.keep_partial_velocity) matching_ = without_partial_velocity(std::move(matching_));
   uses_.assign(reader_->columns().size(), 0);
   for (const ChannelSource& source : matching_.channels) {
     if (source.column >= 0) ++uses_[source.column];
@@ -85,10 +86,17 @@ MappedSource::MappedSource(std::unique_ptr<RawReader> reader, const MappedSource
   reader_->want(wanted);
 }
 
+LogIdentity MappedSource::identity_of_columns() const {
+  LogIdentity out = reader_->identity();
+  for (const ChannelSource& source : matching_.channels)
+    if (source.unit_is_stated) out.stated_units.push_back(to_string(source.channel));
+  return out;
+}
+
 void MappedSource::rewind() {
   reader_->rewind();
   order_ = RowOrder(options_.run);
-  identity_ = reader_->identity();
+  identity_ = identity_of_columns();
   held_.clear();
   rows_kept_ = 0;
   at_end_ = false;
@@ -144,7 +152,7 @@ bool MappedSource::fill() {
     blank_implausible(rows_, block_.first_row, cleaning_issues_);
     order_.take(rows_, block_.first_row, cleaning_issues_);
   }
-  identity_ = reader_->identity();
+  identity_ = identity_of_columns();
   identity_.runs = order_.runs();
   return true;
 }

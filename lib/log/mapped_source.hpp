@@ -24,8 +24,9 @@ struct HeldValue {
 struct MappedSourceOptions {
   ColumnMap columns{};  ///< [log.columns] of the robot file
   int run = kEveryRun;  ///< run to read, from 1, if the clock restarts; kEveryRun: all, one after the other
-  int segment_rows = 4096;  ///< most rows of a segment; has no effect on any result
-  bool keep_extra = true;   ///< whether columns without a canonical meaning are handed out
+  int segment_rows = 4096;            ///< most rows of a segment; has no effect on any result
+  bool keep_extra = true;             ///< whether columns without a canonical meaning are handed out
+  bool keep_partial_velocity = true;  ///< whether velocities are handed out that some joints lack
 };
 
 /// The rows of a file as a joint log: columns mapped to channels in SI, rows without a usable time dropped.
@@ -50,6 +51,7 @@ class MappedSource : public LogSource {
   void gather_sparse_rows(Log& segment);
   void gather_issues() const;
   void refuse_no_rows() const;
+  LogIdentity identity_of_columns() const;
 
   std::unique_ptr<RawReader> reader_;
   MappedSourceOptions options_;

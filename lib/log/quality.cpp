@@ -111,6 +111,15 @@ bool turns_on_and_on(const ChannelSummary& channel, const TimeAxis& time) {
   return channel.path <= kOneWay * (channel.max - channel.min) && channel.path <= kFastTurning * lasts;
 }
 
+/// Whether the unit of a position, or of the position that a reference is for, is stated.
+bool has_stated_unit(const std::string& name, const QualityOptions& options) {
+  std::vector<std::string> names = {name};
+  if (const auto channel = canonical_channel(name)) names.push_back(to_string({Quantity::q, channel->joint}));
+  return std::ranges::any_of(names, [&](const std::string& each) {
+    return std::ranges::find(options.stated_units, each) != options.stated_units.end();
+  });
+}
+
 void judge_span(const ChannelSummary& channel, const TimeAxis& time, const QualityOptions& options,
                 Issues& issues) {
   if (!channel.canonical || !starts_with(channel.name, "q") || channel.values == 0) return;
@@ -120,6 +129,7 @@ void judge_span(const ChannelSummary& channel, const TimeAxis& time, const Quali
   if (channel.max - channel.min < most && largest < kFarAway * most) return;
   const UnitWords words = position_words(axis);
   const bool turns_on = axis != Axis::slides && turns_on_and_on(channel, time);
+  const bool is_stated = has_stated_unit(channel.name, options);
   const std::string what =
       turns_on
           ? fmt::format(
@@ -127,6 +137,11 @@ void judge_span(const ChannelSummary& channel, const TimeAxis& time, const Quali
                 channel.min, channel.max, words.si)
           : fmt::format("is between {:.6g} and {:.6g}, which is hardly in {}", channel.min, channel.max,
                         words.si);
+  if (is_stated) {
+    issues.add(
+        {"unit_implausible", channel.name, Severity::warning, what + ", the unit that is stated for it"});
+    return;
+  }
   issues.add({"unit_implausible", channel.name, turns_on ? Severity::warning : Severity::severe,
               fmt::format("{}; if it is {}, state the unit in the header, \"{} [{}]\", or in the robot file: "
                           "[log.columns] {} = {{unit = \"{}\"}}",

@@ -44,7 +44,8 @@ struct QualityOptions {
   /// A position that spans more, or lies beyond 5 times this, is hardly in rad; the limit leaves room for a
   /// joint that turns a few times after a fault has released it.
   double position_span = 20.0;
-  std::vector<bool> slides{};  ///< whether each joint slides (its unit is m); empty if unknown
+  std::vector<std::string> stated_units{};  ///< LogIdentity::stated_units: a long way in these is a warning
+  std::vector<bool> slides{};               ///< whether each joint slides (its unit is m); empty if unknown
   std::vector<LogRun> runs{};  ///< runs of the log's clock: the step between two of them is no gap
 };
 

@@ -27,7 +27,9 @@ Issues issues_of_beginning(LogSource& log, const QualityOptions& options) {
   }
   log.rewind();
   if (!fits) return {};
-  return quality_of(state, options).issues;
+  QualityOptions with_units = options;
+  with_units.stated_units = log.identity().stated_units;
+  return quality_of(state, with_units).issues;
 }
 
 }  // namespace

@@ -119,6 +119,18 @@ TEST(ColumnMatching, AMissingColumnOfAJointHidesNoOtherJoint) {
       << "unless they do not fit";
 }
 
+TEST(ColumnMatching, VelocitiesThatSomeJointLacksAreLeftOutWithAnIssue) {
+  const std::vector<RawColumn> partial{{"t", ""}, {"q1", ""}, {"q2", ""}, {"dq2", ""}},
+      whole{{"t", ""}, {"q1", ""}, {"dq1", ""}};
+  const Matching left = without_partial_velocity(match_columns(partial, {}, "log"));
+  EXPECT_EQ(left.channels.size(), 3u);
+  ASSERT_NE(left.issues.find("velocities_left_out"), nullptr);
+  EXPECT_NE(left.issues.find("velocities_left_out")->message.find("no column for dq1"), std::string::npos);
+  const Matching kept = without_partial_velocity(match_columns(whole, {}, "log"));
+  EXPECT_EQ(kept.channels.size(), 3u);
+  EXPECT_EQ(kept.issues.find("velocities_left_out"), nullptr);
+}
+
 TEST(ColumnMatching, AMissingPositionBetweenOthersIsReported) {
   const std::vector<RawColumn> columns{{"t", ""}, {"q1", ""}, {"q3", ""}};
   const Matching matching = match_columns(columns, {}, "log");

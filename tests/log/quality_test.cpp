@@ -145,6 +145,21 @@ Log turning(double end, bool to_and_fro) {
   return log;
 }
 
+TEST(Quality, AStatedUnitOfAFarPositionIsAWarning) {
+  Log log = turning(100.0, true);
+  log.q_ref = log.q;
+  QualityState state;
+  assess(log, state);
+  QualityOptions options;
+  options.stated_units = {"q1"};
+  const Issues stated = quality_of(state, options).issues, not_stated = quality_of(state).issues;
+  for (const char* channel : {"q1", "q_ref1"}) {
+    ASSERT_NE(stated.find("unit_implausible", channel), nullptr);
+    EXPECT_EQ(stated.find("unit_implausible", channel)->severity, Severity::warning) << channel;
+    EXPECT_EQ(not_stated.find("unit_implausible", channel)->severity, Severity::severe) << channel;
+  }
+}
+
 TEST(Quality, AJointThatTurnsWithoutEndIsNotSurelyInDegrees) {
   const LogQuality on = quality_in(turning(100.0, false)), back = quality_in(turning(100.0, true)),
                    fast = quality_in(turning(1000.0, false));

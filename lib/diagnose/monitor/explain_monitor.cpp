@@ -128,10 +128,9 @@ ExplainedLog ExplainMonitor::explained_window() const {
     if (l.is_handed_on()) lasting.push_back(l.claim);
   const SignalStretches signals = signals_of_window();
   if (complete_rows(window_) >= kFewestRows) {
-    MemorySource source(window_);
-    const UniformLog log = uniform_log(source, median_step(window_.time));
-    if (can_explain(log, model_.explain.robot))
-      return explain_whole_log(log, model_.explain, lasting, signals);
+    const std::optional<UniformLog> log = uniform_rows(window_, median_step(window_.time));
+    if (log && can_explain(*log, model_.explain.robot))
+      return explain_whole_log(*log, model_.explain, lasting, signals);
   }
   ExplainedLog out;
   out.stretches = judged_stretches(signals.begin, {}, signals.known, nullptr);

@@ -126,6 +126,7 @@ LogFacts log_facts(const LogSource& log, const LogTally& tally, const Model& mod
   QualityOptions options;
   options.slides = sliding_joints(model.robot.chain);
   options.runs = log.identity().runs;
+  options.stated_units = log.identity().stated_units;
   const LogQuality quality = quality_of(tally.quality, options);
   LogFacts facts = tally.facts;
   facts.path = shown_path(log.identity().path);

@@ -14,11 +14,14 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kYields = 2e-2;  // of a joint's range: a lock yields less to the torque
+constexpr double kLeftOfYielding =
+    0.5;                          // of the deflection (rms): motion that the torque does not explain, at most
 constexpr double kRest_s = 0.15;  // at the end of a log that gives the position of a joint at rest
 constexpr int kRestRows = 8;      // rows after an onset that give the position of a locked joint
 constexpr int kMovesRows = 3;     // rows in succession that show that it moves again
 constexpr double kHalts_s = 0.1;  // s beside the begin or end of a standstill in which the joint still moves
 constexpr double kSurelyStands = 8.0;  // standard deviations of a position within which a joint stands still
+constexpr double kLockLags = 1.0;      // share of a lock's deflection: it settles later than its torque
 constexpr double kSpringDoubt = 0.3;   // share of a spring's deflection: error of its model
 constexpr double kLeastTolerance = 1e-5;  // rad or m that a joint may move while it stands
 constexpr double kLeastNoise = 1e-6;      // rad or m: of a position
@@ -34,14 +37,18 @@ struct Standstill {
   double tolerance = 0.0;
 };
 
-Standstill standstill(const LogFit& fit, int j, const Yielding& yielding) {
+/// Returns the standard deviation of a joint's position in a row.
+double noise_of(const LogFit& fit, int j) {
   const BalanceModel& m = fit.model();
-  const double noise = std::max(m.q_noise[j] * fit.loudness()[j], kLeastNoise) *
-                       gaussian_kernel(m.setting.kernel_s, m.setting.period_s).norm();
+  return std::max(m.q_noise[j] * fit.loudness()[j], kLeastNoise) *
+         gaussian_kernel(m.setting.kernel_s, m.setting.period_s).norm();
+}
+
+Standstill standstill(const LogFit& fit, int j, const Yielding& yielding) {
   const VectorXd deflection = yielding.compliance * yielding.load;
   return {fit.rows().q.col(j) - deflection,
-          kSurelyStands * noise + kLeastTolerance +
-              kSpringDoubt * (deflection.maxCoeff() - deflection.minCoeff())};
+          kSurelyStands * noise_of(fit, j) + kLeastTolerance +
+              yielding.doubt * (deflection.maxCoeff() - deflection.minCoeff())};
 }
 
 /// The same with a tolerance that covers the yielding of any lock.
@@ -90,18 +97,22 @@ int moves_at(const LogFit& fit, int j, const Standstill& stands, int first) {
 }  // namespace
 
 Yielding yielding_of_gear(const LogFit& fit, int j) {
-  return {fit.model().compliance(j), fit.rows().torque.col(j)};
+  return {fit.model().compliance(j), fit.rows().torque.col(j), kSpringDoubt};
 }
 
 Yielding yielding_of_lock(const LogFit& fit, int j, const std::vector<int>& rows) {
   Yielding gear = yielding_of_gear(fit, j);
   if (rows.size() < 2) return gear;
-  Yielding lock{0.0, unstacked(fit.residual(), fit.joints()).col(j)};
+  Yielding lock{0.0, unstacked(fit.residual(), fit.joints()).col(j), kLockLags};
   const VectorXd load = lock.load(rows), q = fit.rows().q.col(j)(rows);
   const VectorXd t = load.array() - load.mean(), p = q.array() - q.mean();
   lock.compliance = t.dot(p) / std::max(t.squaredNorm(), 1e-12);
+  const VectorXd deflection = lock.compliance * t;
+  const double share = std::sqrt(1.0 / static_cast<double>(rows.size())),
+               left = share * (p - deflection).norm();
   const bool is_possible =
-      lock.compliance * t.cwiseAbs().maxCoeff() < kYields * (fit.model().q_high[j] - fit.model().q_low[j]);
+      deflection.cwiseAbs().maxCoeff() < kYields * (fit.model().q_high[j] - fit.model().q_low[j]) &&
+      left < kLeftOfYielding * share * deflection.norm() + kSurelyStands * noise_of(fit, j);
   return is_possible && lock.compliance > gear.compliance ? lock : gear;
 }
 

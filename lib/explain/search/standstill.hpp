@@ -13,6 +13,7 @@ namespace faultline {
 struct Yielding {
   double compliance = 0.0;  ///< rad per N m or m per N
   Eigen::VectorXd load;     ///< by row, N m or N
+  double doubt = 0.0;       ///< share of the deflection by which the position may differ from it
 };
 
 /// Returns how joint `j` (from 0) yields in these rows if it is locked: its brake or jammed gear to the part
