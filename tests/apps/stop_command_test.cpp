@@ -96,7 +96,8 @@ TEST_F(StopCommand, ARobotFileMayNameTheColumn) {
   ASSERT_TRUE(asked);
   EXPECT_NEAR(asked->time_s, 9.5, kPeriod_s);
   EXPECT_EQ(asked->column, "estop");
-  EXPECT_FALSE(stop_question(stop_log(log_, {}, {}), robot, "", "")) << "a log without the column is not asked about";
+  EXPECT_FALSE(stop_question(stop_log(log_, {}, {}), robot, "", ""))
+      << "a log without the column is not asked about";
   EXPECT_EQ(stop_question(stop_log(log, {}, {}), robot, "3.5", "")->time_s, 3.5);
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Robots that pick up and put down a work piece all day.
+#include "lib/learn/work_pieces.hpp"
+
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -7,7 +9,6 @@
 
 #include "lib/identify/days/fit_days.hpp"
 #include "lib/learn/consistent_robot.hpp"
-#include "lib/learn/work_pieces.hpp"
 #include "tests/learn/small_robot.hpp"
 #include "tests/support/rrp_runs.hpp"
 
