@@ -11,6 +11,7 @@
 #include "apps/options.hpp"
 #include "apps/terminal.hpp"
 #include "apps/work/batching.hpp"
+#include "lib/batch/batch_exports.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/model/model_files.hpp"
 
@@ -39,9 +40,11 @@ std::function<void(const BatchProgress&)> progress_to(ProgressBar& bar) {
   };
 }
 
-int report(const BatchSummary& summary, const std::string& folder, const std::string& json) {
+int report(const BatchSummary& summary, const std::string& folder, const std::string& json,
+           const std::string& junit) {
   if (!json.empty()) write_file(json, to_json(summary));
-  if (json != "-") print(to_text(summary) + "Look at " + folder + "/index.html\n");
+  if (!junit.empty()) write_file(junit, batch_junit(rows_of_batch(folder)));
+  if (json != "-" && junit != "-") print(to_text(summary) + "Look at " + folder + "/index.html\n");
   return summary.status;
 }
 
@@ -82,19 +85,21 @@ int run_command(BatchArguments request, ColorChoice color) {
   }
   const int done = result.summary.all.logs - result.diagnosed;
   if (done > 0) print_message(fmt::format("{} of {} logs were done before", done, result.summary.all.logs));
-  return report(result.summary, request.folder, request.json);
+  return report(result.summary, request.folder, request.json, request.junit);
 }
 
 void add_merge(CLI::App& batch, Program& program) {
   auto folders = std::make_shared<std::vector<std::string>>();
-  auto into = std::make_shared<std::string>(), json = std::make_shared<std::string>();
+  auto into = std::make_shared<std::string>(), json = std::make_shared<std::string>(),
+       junit = std::make_shared<std::string>();
   CLI::App* merge = batch.add_subcommand("merge", "Put the results of all shards into one folder");
   merge->add_option("OUT", *folders, "Folders of finished shards")->required();
   merge->add_option("-o,--output", *into, "Folder for the merged results")->required()->type_name("DIR");
   add_file_option(*merge, "--json", *json, "Write the summary as JSON");
+  add_file_option(*merge, "--junit", *junit, "Write JUnit XML with a test case for each log");
   merge->footer("Example: faultline batch merge out/part-* -o out/all");
   merge->callback([=, &program] {
-    program.run = [=] { return report(merge_shards(*folders, *into, *json), *into, *json); };
+    program.run = [=] { return report(merge_shards(*folders, *into, *json, *junit), *into, *json, *junit); };
   });
 }
 
@@ -123,6 +128,7 @@ void add_options(CLI::App& command, BatchArguments& arguments) {
           "the others")
       ->type_name("PAIRS");
   add_file_option(command, "--json", arguments.json, "Write the summary as JSON");
+  add_file_option(command, "--junit", arguments.junit, "Write JUnit XML with a test case for each log");
   command
       .add_option("--threads", arguments.options.threads,
                   "Number of logs diagnosed at once; 0 = one per core")

@@ -11,13 +11,14 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/log/derived_velocity.hpp"
 #include "lib/model/model.hpp"
+#include "lib/report/comparison_junit.hpp"
 #include "lib/report/html/comparison/comparison_page.hpp"
 
 namespace faultline {
 namespace {
 
 struct CompareArguments {
-  std::string first, second, model, html, json;
+  std::string first, second, model, html, json, junit;
   AlignmentKind align = AlignmentKind::automatic;
 };
 
@@ -28,6 +29,7 @@ void claim_files(const CompareArguments& arguments) {
       .reads(ModelPaths{arguments.model, ""})
       .writes("--html", arguments.html)
       .writes("--json", arguments.json)
+      .writes("--junit", arguments.junit)
       .claim();
 }
 
@@ -43,7 +45,9 @@ int run_compare(const CompareArguments& arguments) {
   const auto [comparison, turns] = compare_logs(*first, *second, model.get(), arguments.align);
   if (!arguments.json.empty()) write_file(arguments.json, to_json(comparison, turns));
   if (!arguments.html.empty()) write_file(arguments.html, render_comparison_html(comparison, turns));
-  if (arguments.json != "-" && arguments.html != "-") print(to_text(comparison, turns));
+  if (!arguments.junit.empty()) write_file(arguments.junit, comparison_junit(comparison, turns));
+  if (arguments.json != "-" && arguments.html != "-" && arguments.junit != "-")
+    print(to_text(comparison, turns));
   return comparison.same() ? kNothingFound : kFindings;
 }
 
@@ -65,6 +69,7 @@ void add_compare(CLI::App& app, Program& program) {
       "motion if that is better");
   add_file_option(*command, "--html", arguments->html, "Write a page with plots");
   add_file_option(*command, "--json", arguments->json, "Write the comparison as JSON");
+  add_file_option(*command, "--junit", arguments->junit, "Write JUnit XML with a test case for each signal");
   command->footer(
       "Exit status 0: the same within noise, 1: the runs differ.\n"
       "Example: faultline compare good.csv bad.csv --model robot.model --html compare.html");

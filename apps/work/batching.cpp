@@ -20,7 +20,7 @@ namespace {
 
 /// Adds the files that a batch writes to the folder of its results.
 void writes_batch(FileUse& files, const std::string& folder) {
-  for (const char* name : {"index.csv", "index.ndjson", "index.html", "summary.json"})
+  for (const char* name : {"index.csv", "index.ndjson", "index.html", "summary.json", "faultline_mqc.json"})
     files.writes("-o", folder + "/" + name);
   files.writes_below("-o", folder + "/logs").writes_below("-o", folder + "/.batch");
 }
@@ -36,7 +36,7 @@ void claim_files(const BatchRequest& request, const std::vector<BatchLog>& logs)
   for (const BatchLog& log : logs) files.reads("the log", log.path);
   for (const BatchModel& model : request.models) files.reads(model.files);
   writes_batch(files, request.folder);
-  files.writes("--json", request.json).claim();
+  files.writes("--json", request.json).writes("--junit", request.junit).claim();
 }
 
 }  // namespace
@@ -81,11 +81,11 @@ BatchResult run_batch_on(const std::vector<BatchLog>& logs, const std::vector<Mo
 }
 
 BatchSummary merge_shards(const std::vector<std::string>& folders, const std::string& into,
-                          const std::string& json) {
+                          const std::string& json, const std::string& junit) {
   FileUse files;
   for (const std::string& folder : folders) files.reads_below("the results of a shard", folder);
   writes_batch(files, into);
-  files.writes("--json", json).claim();
+  files.writes("--json", json).writes("--junit", junit).claim();
   return merge_batches(folders, into);
 }
 

@@ -18,7 +18,7 @@ struct BatchModel {
 struct BatchRequest {
   std::vector<std::string> paths;
   std::vector<BatchModel> models;
-  std::string folder, json, shard;
+  std::string folder, json, junit, shard;
   BatchOptions options;
 };
 
@@ -39,6 +39,6 @@ BatchResult run_batch_on(const std::vector<BatchLog>& logs, const std::vector<Mo
 
 /// Puts the results of all shards into one folder, after the same check.
 BatchSummary merge_shards(const std::vector<std::string>& folders, const std::string& into,
-                          const std::string& json);
+                          const std::string& json, const std::string& junit = "");
 
 }  // namespace faultline

@@ -79,7 +79,7 @@ BatchFolder::~BatchFolder() { ::close(lock_); }
 void BatchFolder::refuse_foreign_places() const {
   for (const char* folder : {".batch", "logs"}) has_inner_folder(path_, folder);
   for (const char* name : {".batch/lock", ".batch/journal", ".batch/finished.json", "index.csv",
-                           "index.ndjson", "index.html", "summary.json"})
+                           "index.ndjson", "index.html", "summary.json", "faultline_mqc.json"})
     has_inner_file(path_, name);
 }
 

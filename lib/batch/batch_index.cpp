@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "lib/batch/batch_exports.hpp"
 #include "lib/batch/page/index_page.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
@@ -105,6 +106,7 @@ BatchSummary BatchIndex::finish(const BatchFacts& facts) {
   const BatchSummary summary = summary_of(rows, facts);
   write_file(folder_.file("summary.json"), to_json(summary));
   write_file(folder_.file("index.html"), render_index_page(rows, summary, pages));
+  write_file(folder_.file("faultline_mqc.json"), batch_multiqc(rows));
   write_file(folder_.journal(), journal);
   folder_.clean(result_names(entries_));
   write_file(folder_.finished(), facts_to_json(facts));

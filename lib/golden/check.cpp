@@ -216,7 +216,7 @@ std::string render_check_text(const GoldenCheck& check, bool color) {
 std::string render_check_junit(const GoldenCheck& check, const std::string& suite) {
   std::vector<JunitCase> cases;
   for (const CheckedItem& item : check.items) cases.push_back({item.name, junit_body(item, check)});
-  return junit_suite(suite, cases, "error");
+  return junit_suite(suite, cases, {"errors"});
 }
 
 }  // namespace faultline

@@ -53,7 +53,7 @@ std::vector<JunitCase> test_cases(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::string junit_suite(const std::string& suite, const std::vector<JunitCase>& cases,
-                        const std::string& other) {
+                        const std::vector<std::string>& counts) {
   const auto having = [&](const std::string& element) {
     return std::count_if(cases.begin(), cases.end(),
                          [&](const JunitCase& c) { return c.body.find("<" + element) != std::string::npos; });
@@ -61,8 +61,11 @@ std::string junit_suite(const std::string& suite, const std::vector<JunitCase>& 
   const std::string name = escaped_markup(suite);
   std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"{}\" tests=\"{}\" "
-      "failures=\"{}\" {}=\"{}\">\n",
-      name, cases.size(), having("failure"), other == "error" ? "errors" : other, having(other));
+      "failures=\"{}\"",
+      name, cases.size(), having("failure"));
+  for (const std::string& count : counts)
+    text += fmt::format(" {}=\"{}\"", count, having(count == "errors" ? "error" : count));
+  text += ">\n";
   for (const JunitCase& c : cases)
     text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"{}", name, escaped_markup(c.name),
                         c.body.empty() ? "/>\n" : ">\n" + c.body + "    </testcase>\n");
@@ -70,7 +73,7 @@ std::string junit_suite(const std::string& suite, const std::vector<JunitCase>& 
 }
 
 std::string render_junit(const Diagnosis& diagnosis) {
-  return junit_suite(diagnosis.log.path, test_cases(diagnosis), "skipped");
+  return junit_suite(diagnosis.log.path, test_cases(diagnosis), {"skipped"});
 }
 
 }  // namespace faultline

@@ -47,9 +47,10 @@ struct JunitCase {
   std::string body;
 };
 
-/// JUnit XML of one suite. A body holds elements "failure" or those of the name `other`; both are counted.
+/// JUnit XML of one suite. A body holds elements "failure", "error" or "skipped"; failures are counted, and
+/// the others if the name of their count (errors, skipped) is in `counts`.
 std::string junit_suite(const std::string& suite, const std::vector<JunitCase>& cases,
-                        const std::string& other);
+                        const std::vector<std::string>& counts);
 
 /// JUnit XML for continuous-integration servers: the log is a suite, each joint a test case that fails with
 /// the faults found on it; faults of no joint fail a case "robot"; an inconclusive log is one skipped case.

@@ -25,8 +25,12 @@ TEST(BatchCommand, WritesARowForEachLogAndExitsWithTheWorstStatus) {
   const BatchWorld world;
   world.add_logs(4);
   const std::string out = world.file("out");
-  const ProgramRun run = run_program(world.command(out, {"--html"}));
+  const std::string junit = world.file("batch.xml");
+  const ProgramRun run = run_program(world.command(out, {"--html", "--junit", junit}));
   EXPECT_EQ(run.status, 1) << run.err;
+  EXPECT_NE(read_file(junit).find("tests=\"4\" failures=\"2\" errors=\"0\" skipped=\"0\""),
+            std::string::npos);
+  EXPECT_EQ(Json::parse(read_file(out + "/faultline_mqc.json")).at("data").size(), 4u);
   EXPECT_NE(run.out.find("4 logs: 2 healthy, 2 faulty"), std::string::npos) << run.out;
   const Json summary = Json::parse(read_file(out + "/summary.json"));
   EXPECT_EQ(summary["all"]["logs"], 4);

@@ -39,6 +39,13 @@ TEST(CompareCommand, ExitStatusDistinguishesEqualFromDifferentRuns) {
   EXPECT_EQ(json["same"], false);
   EXPECT_NEAR(json["diverges_s"].get<double>(), 2.0, 0.1);
   EXPECT_NE(read_file(page).find("The runs differ from"), std::string::npos);
+  const std::string junit = run_program({"compare", a, bad, "--junit", "-"}).out;
+  EXPECT_NE(junit.find("<testcase classname=\"" + bad + "\" name=\"position of joint 1\">"),
+            std::string::npos)
+      << junit;
+  EXPECT_NE(junit.find("<failure type=\"position\" message=\"position of joint 1 differs from"),
+            std::string::npos);
+  EXPECT_NE(run_program({"compare", a, b, "--junit", "-"}).out.find("failures=\"0\""), std::string::npos);
   const ProgramRun again = run_program({"compare", a, bad, "--html", "-"});
   EXPECT_EQ(again.out, read_file(page));
 }
