@@ -213,6 +213,7 @@ std::vector<SignalStretch> stretches_of(const std::vector<RelationEpisode>& epis
                    .end_s = episode.lasts ? kNeverEnds : episode.end_s,
                    .nats = episode.nats,
                    .limit = episode.nats / (episode.times_limit * episode.times_limit),
+                   .offset = episode.mean,
                    .loss = episode.share,
                    .loss_explains = episode.share_explains,
                    .offset_explains = episode.offset_explains,

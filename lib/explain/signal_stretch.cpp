@@ -11,8 +11,12 @@
 namespace faultline {
 namespace {
 
-constexpr double kAnyForm = 0.5;         // price of any form, as a share of what it alone explains
-constexpr double kSensorStays_s = 1.0;   // shortest duration of an error of a sensor
+constexpr double kAnyForm = 0.5;        // price of any form, as a share of what it alone explains
+constexpr double kSensorStays_s = 1.0;  // shortest duration of an error of a sensor
+constexpr double kDetermined =
+    8.0;  // standard deviations in the torque balance: a difference that it determines
+constexpr double kSmallPart =
+    0.25;  // of the difference: less in the torque balance means that the sensor is wrong
 constexpr double kLongAnswer_s = 1.0;    // a longer stretch of a law after a fault is a response to it
 constexpr double kAlikeLosses = 0.7;     // least ratio of two shares that may be one loss
 constexpr double kQuietCommand_s = 1.0;  // between two stretches of one loss, if no torque balance shows it
@@ -40,6 +44,23 @@ double gain_in_balance(const LogFit* fit, const FaultClaim& claim) {
   return judged ? std::max(0.0, judged->gain) : 0.0;
 }
 
+bool may_be_sensor(const SignalStretch& s) {
+  return s.pair == SignalPair::drive && s.end_s - s.onset_s >= kSensorStays_s;
+}
+
+/// Returns whether the motion shows that the drive gave what was commanded, so that the sensor is wrong: the
+/// torque balance of the command determines the difference, and finds a small part of it at most.
+bool motion_fits_command(const SignalStretch& s, const LogFit* fit) {
+  if (!may_be_sensor(s) || !s.balance_is_of_command || fit == nullptr) return false;
+  const bool is_share = s.loss_explains > s.offset_explains;
+  const double claimed = std::abs(is_share ? s.loss : s.offset);
+  const std::optional<FaultHypothesis> judged =
+      judge(*fit, claim_of(s, is_share ? FaultKind::torque_loss : FaultKind::torque_sensor_error));
+  if (!judged || judged->fit.size.size() != 1) return false;
+  return claimed > kDetermined * std::sqrt(judged->fit.size_covariance(0, 0)) &&
+         std::abs(judged->fit.size[0]) < kSmallPart * claimed;
+}
+
 /// Scores a torque of any form: it explains an offset, such as that of a drive, and has a price for all other
 /// forms. A torque balance of the command lacks the torque that the drive did not give; one of a sensor shows
 /// its error.
@@ -52,7 +73,8 @@ StretchScore score_free_form(const SignalStretch& s, const LogFit* fit) {
     out.in_balance = std::max(offset, gain_in_balance(fit, out.claim));
   }
   out.gain = s.nats + out.in_balance;
-  out.price = kAnyForm * ((1.0 - s.offset_explains) * s.nats + out.in_balance - offset);
+  const double as_offset = motion_fits_command(s, fit) ? 0.0 : s.offset_explains;
+  out.price = kAnyForm * ((1.0 - as_offset) * s.nats + out.in_balance - offset);
   return out;
 }
 
@@ -92,13 +114,15 @@ std::optional<StretchScore> of_loss(const SignalStretch& s, const LogFit* fit) {
   return out;
 }
 
-bool may_be_sensor(const SignalStretch& s) {
-  return s.pair == SignalPair::drive && s.end_s - s.onset_s >= kSensorStays_s;
-}
-
-/// Scores an offset of the torque sensor, which a torque balance of its measurements shows; empty if it does
-/// not.
+/// Scores an error of the torque sensor: one that the motion proves, since it fits the command, or an offset
+/// that a torque balance of its measurements shows; empty if neither does.
 std::optional<StretchScore> of_sensor(const SignalStretch& s, const LogFit* fit) {
+  if (motion_fits_command(s, fit)) {
+    StretchScore out{claim_of(s, FaultKind::torque_sensor_error),
+                     std::max(s.offset_explains, s.loss_explains) * s.nats};
+    out.claim.size = Eigen::VectorXd::Constant(1, s.offset);
+    return out;
+  }
   if (!may_be_sensor(s) || fit == nullptr || s.balance_is_of_command) return std::nullopt;
   const std::optional<FaultHypothesis> judged = judge(*fit, claim_of(s, FaultKind::torque_sensor_error));
   if (!judged || judged->gain <= 0.0) return std::nullopt;

@@ -24,9 +24,10 @@ struct SignalStretch {
   double onset_s = 0.0;  ///< first sample at which they differ
   double alarm_s = 0.0;  ///< earliest sample at which the difference passes its limit
   double end_s = kNeverEnds;
-  double nats = 0.0;   ///< by which a difference of any form explains the signals better than none
-  double limit = 0.0;  ///< nats that they had to exceed
-  double loss = 0.0;   ///< share of the commanded torque that is missing, by least squares
+  double nats = 0.0;    ///< by which a difference of any form explains the signals better than none
+  double limit = 0.0;   ///< nats that they had to exceed
+  double offset = 0.0;  ///< mean of torque minus command, N m or N
+  double loss = 0.0;    ///< share of the commanded torque that is missing, by least squares
   double loss_explains = 0.0, offset_explains = 0.0;  ///< shares of `nats` that they explain
   /// The torque balance uses the commanded torque; else the torque of the drive.
   bool balance_is_of_command = true;
@@ -46,7 +47,7 @@ struct JudgedStretch {
 };
 
 /// Finds the fault that explains a stretch, by one score of the difference and the torque balance: a drive
-/// that gives a share of its torque, a torque sensor with an offset, or a fault of no kind. Without `fit` the
+/// that gives a share of its torque, a torque sensor that is wrong, or a fault of no kind. Without `fit` the
 /// torque balance is not considered.
 JudgedStretch judge_stretch(const SignalStretch& stretch, const LogFit* fit);
 
