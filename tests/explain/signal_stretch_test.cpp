@@ -70,15 +70,33 @@ TEST(SignalStretch, TheTorqueBalanceAddsItsEvidenceForALoss) {
   EXPECT_NEAR(both.fault.claim.size[0], 0.3, 0.03);
 }
 
-TEST(SignalStretch, ALossThatTheTorqueBalanceContradictsIsNotALossOfTheDrive) {
+TEST(SignalStretch, ALossThatTheTorqueBalanceContradictsIsAnErrorOfTheSensor) {
   SignalStretch lost = drive(4.0, kNeverEnds);
   lost.loss = 0.3;
   lost.loss_explains = 0.95;
   const LogFit is_healthy = fit_of(healthy(41));
   const ExplainedFault of_sensor = judge_stretch(lost, &is_healthy).fault;
-  EXPECT_EQ(of_sensor.label(), (FaultLabel{FaultKind::unknown, 1_joint}));
-  EXPECT_EQ(of_sensor.could_also_be, std::vector{kSensor1});
-  EXPECT_EQ(of_sensor.evidence, lost.nats) << "the torque balance shows nothing";
+  EXPECT_EQ(of_sensor.label(), kSensor1);
+  EXPECT_EQ(of_sensor.evidence, 0.95 * lost.nats) << "the torque balance shows nothing";
+  const ExplainedFault unbalanced = judge_stretch(drive(4.0, kNeverEnds), nullptr).fault;
+  EXPECT_EQ(unbalanced.label(), (FaultLabel{FaultKind::unknown, 1_joint}));
+  EXPECT_EQ(unbalanced.could_also_be, std::vector{kSensor1}) << "no motion decides between drive and sensor";
+}
+
+TEST(SignalStretch, AnOffsetIsOfTheSensorIfTheMotionFitsTheCommand) {
+  SignalStretch off = drive(4.0, kNeverEnds);
+  off.offset = 6.0;
+  off.offset_explains = 0.95;
+  const LogFit fits = fit_of(healthy(42)),
+               drive_gives_more =
+                   fit_of(changed(healthy(42), 4.0, kNeverEnds, [](Log&l, int k) { l.tau[0][k] -= 6.0; }));
+  const ExplainedFault of_sensor = judge_stretch(off, &fits).fault;
+  EXPECT_EQ(of_sensor.label(), kSensor1);
+  EXPECT_EQ(of_sensor.claim.size[0], 6.0);
+  EXPECT_EQ(label_of(off, &drive_gives_more), (FaultLabel{FaultKind::unknown, 1_joint}));
+  off.offset = 0.01;
+  EXPECT_EQ(label_of(off, &fits), (FaultLabel{FaultKind::unknown, 1_joint}))
+      << "too small for the motion to show";
 }
 
 TEST(SignalStretch, TimesOfALossAreThoseThatTheTorqueBalanceExplainsBest) {
