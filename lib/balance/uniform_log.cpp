@@ -100,7 +100,7 @@ PlacedRows placed(const Log& all, double period_s) {
 
 UniformLog on_grid(const Log& all, const PlacedRows& placed) {
   UniformLog out;
-  out.start_s = placed.grid.start_s;
+  out.start_s = std::abs(placed.grid.start_s) < kSameTime_s ? 0.0 : placed.grid.start_s;
   out.period_s = placed.grid.period_s;
   const int rows = placed.grid.points(), joints = all.joints();
   out.q.setZero(rows, joints);

@@ -54,7 +54,11 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
   int moves = 0;
   for (double step = kFirstMove_s; step > 0.3 * row_s && moves < kMostRefineMoves; ++moves)
     if (!try_at(best.*when - step) && !try_at(best.*when + step)) step /= 2.0;
-  return best;
+  if (when != &FaultClaim::onset_s || passes || best.onset_s > earliest + kSameFault_s) return best;
+  FaultClaim claim = best;  // a fault that began in the lead, or before the log, has no onset in it
+  claim.onset_s = fit.log().time_s(0);
+  const std::optional<FaultHypothesis> from_start = bench.go(claim);
+  return from_start && from_start->gain > best.gain + kLeastGain ? *from_start : best;
 }
 
 /// Returns residuals with the fault and without it, with the effects of the day estimated from the rows

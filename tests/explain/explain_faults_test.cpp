@@ -202,6 +202,14 @@ TEST(LogFit, ALargeFaultDoesNotDistortTheEffectsOfTheDayBeyondTheirBound) {
   EXPECT_LT(stds.cwiseAbs().maxCoeff(), 30.01);
 }
 
+TEST(ExplainFaults, AFaultFromTheFirstRowOnBeginsWithTheLogAndIsOneFault) {
+  const Log log = with_loss(simulate_closed_form(of_day(0), run_of(52)), 2_joint, 0.6, 0.0);
+  const ExplainedLog found = explain_faults(on_grid(log), scara_model(), evidence_limits({}), {});
+  ASSERT_EQ(found.faults.size(), 1u);
+  EXPECT_EQ(found.faults[0].label(), (FaultLabel{FaultKind::torque_loss, 2_joint}));
+  EXPECT_EQ(found.faults[0].claim.onset_s, log.time[0]);
+}
+
 TEST(LogFit, TheOtherJointsShowAWorkPieceWhileTheSlideIsLocked) {
   ClosedFormRun run = run_of(28);
   run.carries_from_s = 4.5;
