@@ -131,14 +131,15 @@ std::vector<FaultFinding> ended_with_run(std::vector<FaultFinding> faults, const
   return faults;
 }
 
-/// Whether faults of known kinds explain nearly all of a log's excess over the noise. A change of columns
-/// resembles no kind except a free-swinging joint, which a torque in a smaller unit looks like.
+/// Whether faults of known kinds explain nearly all of a log's excess over the noise, or as much as a torque
+/// of any form does. A change of columns resembles no kind except a free-swinging joint, which a torque in a
+/// smaller unit looks like.
 bool are_explained(const std::vector<MonitoredEpisode>& episodes) {
   return !episodes.empty() &&
          std::all_of(episodes.begin(), episodes.end(), [](const MonitoredEpisode& episode) {
            const FaultKind kind = episode.fault.claim.kind;
            return kind != FaultKind::unknown && kind != FaultKind::free_swinging &&
-                  episode.fault.residual_share < kLittleLeft;
+                  (episode.fault.residual_share < kLittleLeft || episode.fault.misfit <= 0.0);
          });
 }
 
