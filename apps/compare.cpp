@@ -69,7 +69,7 @@ void add_compare(CLI::App& app, Program& program) {
       "motion if that is better");
   add_file_option(*command, "--html", arguments->html, "Write a page with plots");
   add_file_option(*command, "--json", arguments->json, "Write the comparison as JSON");
-  add_file_option(*command, "--junit", arguments->junit, "Write JUnit XML with a test case for each signal");
+  add_file_option(*command, "--junit", arguments->junit, "Write JUnit XML with a case for each signal");
   command->footer(
       "Exit status 0: the same within noise, 1: the runs differ.\n"
       "Example: faultline compare good.csv bad.csv --model robot.model --html compare.html");
