@@ -66,7 +66,8 @@ void add_compare(CLI::App& app, Program& program) {
   add_choice_option(
       *command, "--align", arguments->align, kAlignmentKinds,
       "time: each from its first row; motion: by the references, a constant shift or a warp; auto: "
-      "motion if that is better");
+      "motion if that is better")
+      ->default_str(to_string(arguments->align));
   add_file_option(*command, "--html", arguments->html, "Write a page with plots");
   add_file_option(*command, "--json", arguments->json, "Write the comparison as JSON");
   add_file_option(*command, "--junit", arguments->junit, "Write JUnit XML with a case for each signal");
