@@ -39,6 +39,14 @@ Json header(const char* title, const char* description, const char* format = nul
   return out;
 }
 
+/// Returns the name of a log with " > " between folders: MultiQC keeps of a path its last part, which several
+/// logs may have.
+std::string sample_name(const BatchRow& row) {
+  std::string out;
+  for (const char c : row.log) out += c == '/' ? std::string(" > ") : std::string(1, c);
+  return out;
+}
+
 /// Returns "locked 1, collision 2".
 std::string fault_names(const BatchRow& row) {
   std::string out;
@@ -68,7 +76,7 @@ std::string batch_junit(const std::vector<BatchRow>& rows) {
 
 std::string batch_multiqc(const std::vector<BatchRow>& rows) {
   Json data = Json::object();
-  for (const BatchRow& row : rows) data[row.log] = multiqc_row(row);
+  for (const BatchRow& row : rows) data[sample_name(row)] = multiqc_row(row);
   return json_text(
       Json{{"id", "faultline"},
            {"section_name", "faultline"},

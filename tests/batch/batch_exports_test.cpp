@@ -58,12 +58,12 @@ TEST(BatchExports, MultiqcHasATableWithARowForEachLog) {
   const Json json = Json::parse(batch_multiqc(four_rows()));
   EXPECT_EQ(json.at("plot_type"), "table");
   ASSERT_EQ(json.at("data").size(), 4u);
-  const Json& healthy = json.at("data").at("day/a.csv");
+  const Json& healthy = json.at("data").at("day > a.csv");
   EXPECT_EQ(healthy.at("verdict"), "healthy");
   EXPECT_EQ(healthy.at("score"), 0.25);
   EXPECT_EQ(healthy.at("residual"), 1.5);
   EXPECT_FALSE(healthy.contains("onset_s"));
-  const Json& faulty = json.at("data").at("day/<b>&\".csv");
+  const Json& faulty = json.at("data").at("day > <b>&\".csv");
   EXPECT_EQ(faulty.at("faults"), "locked 2, unknown");
   EXPECT_EQ(faulty.at("onset_s"), 0.5);
   EXPECT_FALSE(faulty.contains("score")) << "a number that is not known";
