@@ -54,7 +54,8 @@ FaultHypothesis moved(FaultHypothesis best, double FaultClaim::*when, JudgedHypo
   int moves = 0;
   for (double step = kFirstMove_s; step > 0.3 * row_s && moves < kMostRefineMoves; ++moves)
     if (!try_at(best.*when - step) && !try_at(best.*when + step)) step /= 2.0;
-  if (when != &FaultClaim::onset_s || passes || best.onset_s > earliest + kSameFault_s) return best;
+  const bool is_over = passes || best.end_s < earliest;  // before an onset could be seen: a push, if anything
+  if (when != &FaultClaim::onset_s || is_over || best.onset_s > earliest + kSameFault_s) return best;
   FaultClaim claim = best;  // a fault that began in the lead, or before the log, has no onset in it
   claim.onset_s = fit.log().time_s(0);
   const std::optional<FaultHypothesis> from_start = bench.go(claim);
