@@ -152,7 +152,9 @@ bool MappedSource::fill() {
     blank_implausible(rows_, block_.first_row, cleaning_issues_);
     order_.take(rows_, block_.first_row, cleaning_issues_);
   }
-  identity_ = identity_of_columns();
+  // In place, since a reader ahead of the work changes it while the work looks at the runs.
+  identity_.rows_read = reader_->identity().rows_read;
+  identity_.sha256 = reader_->identity().sha256;
   identity_.runs = order_.runs();
   return true;
 }
