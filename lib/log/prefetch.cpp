@@ -17,15 +17,22 @@ constexpr int kSegmentsAhead = 4;
 /// A ring of segments between the reading thread and the caller of next().
 class PrefetchSource : public LogSource {
  public:
-  explicit PrefetchSource(std::unique_ptr<LogSource> source) : source_(std::move(source)) {}
+  explicit PrefetchSource(std::unique_ptr<LogSource> source)
+      : source_(std::move(source)), identity_(source_->identity()) {}
   ~PrefetchSource() override { stop(); }
 
   bool next(Log& segment) override {
-    if (!reader_.joinable() && !ended_ && !start_reader()) return source_->next(segment);
+    if (!reader_.joinable() && !ended_ && !start_reader()) {
+      const bool got = source_->next(segment);
+      identity_ = source_->identity();
+      return got;
+    }
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return ready_ > 0 || ended_; });
     if (ready_ > 0) {
-      std::swap(segment, ring_[static_cast<std::size_t>(taken_ % kSegmentsAhead)]);
+      const auto place = static_cast<std::size_t>(taken_ % kSegmentsAhead);
+      std::swap(segment, ring_[place]);
+      std::swap(identity_, identities_[place]);
       ++taken_;
       --ready_;
       changed_.notify_all();
@@ -33,6 +40,7 @@ class PrefetchSource : public LogSource {
     }
     lock.unlock();
     if (reader_.joinable()) reader_.join();
+    identity_ = source_->identity();
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
     return false;
   }
@@ -40,12 +48,13 @@ class PrefetchSource : public LogSource {
   void rewind() override {
     stop();
     source_->rewind();
+    identity_ = source_->identity();
     taken_ = ready_ = 0;
     ended_ = stopping_ = false;
     failure_ = nullptr;
   }
 
-  const LogIdentity& identity() const override { return source_->identity(); }
+  const LogIdentity& identity() const override { return identity_; }
   const Issues& issues() const override { return source_->issues(); }
 
  private:
@@ -66,7 +75,9 @@ class PrefetchSource : public LogSource {
         changed_.wait(lock, [&] { return ready_ < kSegmentsAhead || stopping_; });
         if (stopping_) break;
         lock.unlock();
-        const bool got = source_->next(ring_[static_cast<std::size_t>(number % kSegmentsAhead)]);
+        const auto place = static_cast<std::size_t>(number % kSegmentsAhead);
+        const bool got = source_->next(ring_[place]);
+        if (got) identities_[place] = source_->identity();
         lock.lock();
         if (!got) break;
         ++ready_;
@@ -90,12 +101,14 @@ class PrefetchSource : public LogSource {
   }
 
   std::unique_ptr<LogSource> source_;
+  LogIdentity identity_;  ///< with the segment handed out last; the reader is ahead of it
   std::thread reader_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::array<Log, kSegmentsAhead> ring_;
-  int taken_ = 0;  ///< segments handed out
-  int ready_ = 0;  ///< segments read and not handed out
+  std::array<LogIdentity, kSegmentsAhead> identities_;  ///< as the log was known with each segment
+  int taken_ = 0;                                       ///< segments handed out
+  int ready_ = 0;                                       ///< segments read and not handed out
   bool ended_ = false;
   bool stopping_ = false;
   std::exception_ptr failure_;
