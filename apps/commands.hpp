@@ -33,6 +33,7 @@ void add_diagnose(CLI::App& app, Program& program);
 void add_compare(CLI::App& app, Program& program);
 void add_batch(CLI::App& app, Program& program);
 void add_history(CLI::App& app, Program& program);
+void add_serve(CLI::App& app, Program& program);
 void add_golden(CLI::App& app, Program& program);
 void add_reproduce(CLI::App& app, Program& program);
 void add_help(CLI::App& app, Program& program);

@@ -20,7 +20,7 @@ packages=(
   g++ cmake ninja-build ccache pkg-config
   # the program
   libeigen3-dev libceres-dev libsuitesparse-dev libcli11-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev
-  libtinyxml2-dev libfast-float-dev libsqlite3-dev libssl-dev libxxhash-dev libjs-dygraphs
+  libtinyxml2-dev libfast-float-dev libsqlite3-dev libssl-dev libxxhash-dev libjs-dygraphs libcpp-httplib-dev
   zlib1g-dev libzstd-dev liblz4-dev libbz2-dev libhdf5-dev
   # to configure the tests
   libgtest-dev

@@ -48,7 +48,7 @@ void add_global_options(CLI::App& app, Program& program) {
 void add_commands(CLI::App& app, Program& program) {
   for (const auto add :
        {add_inspect, add_convert, add_cases, add_model, add_simulate, add_identify, add_learn, add_diagnose,
-        add_compare, add_batch, add_history, add_golden, add_reproduce, add_help, add_completion})
+        add_compare, add_batch, add_history, add_serve, add_golden, add_reproduce, add_help, add_completion})
     add(app, program);
 }
 

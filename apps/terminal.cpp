@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "apps/progress_line.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/text.hpp"
 
@@ -29,6 +30,9 @@ bool environment_forbids_color() {
 constexpr int kProgressWidth = 30;
 constexpr auto kDelay = std::chrono::milliseconds(300);  // before the bar appears
 constexpr auto kRefresh = std::chrono::milliseconds(100);
+constexpr auto kLineDelay =
+    std::chrono::seconds(2);    // before the first line of a file, and between two at least
+constexpr int kLineShare = 10;  // of the time so far until the next line: a tenth
 
 std::string bar(double share, bool color) {
   const double known = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
@@ -74,20 +78,25 @@ void prepare_standard_streams() {
 ProgressBar::ProgressBar(ColorChoice color)
     : on_terminal_(is_terminal(stderr)),
       color_(use_color(color, stderr)),
-      next_(std::chrono::steady_clock::now() + kDelay) {}
+      begin_(std::chrono::steady_clock::now()),
+      next_(begin_ + (on_terminal_ ? std::chrono::steady_clock::duration(kDelay) : kLineDelay)) {}
 
 ProgressBar::~ProgressBar() {
   if (shown_) std::fputs("\r\x1b[K", stderr);
 }
 
 Progress ProgressBar::callback() {
-  if (!on_terminal_) return {};
   return [this](const std::string& what, double share) { show(what, share); };
 }
 
 void ProgressBar::show(const std::string& what, double share) {
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return;
+  if (!on_terminal_) {
+    next_ = now + std::max<std::chrono::steady_clock::duration>(kLineDelay, (now - begin_) / kLineShare);
+    std::fprintf(stderr, "%s\n", to_text(ProgressLine{what, share}).c_str());
+    return;
+  }
   next_ = now + kRefresh;
   shown_ = true;
   std::fprintf(stderr, "\r\x1b[K%s %s", bar(share, color_).c_str(), shortened(what, kLongestName).c_str());

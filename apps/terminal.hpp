@@ -27,8 +27,8 @@ void print_message(std::string_view sentence);
 /// standard streams cannot be confused with files opened later.
 void prepare_standard_streams();
 
-/// A progress bar on standard error while the object lives, if that is a terminal; else nothing. Give
-/// `callback()` to the long work. The bar appears after a moment, so that short work shows none.
+/// Progress of long work on standard error: a bar while the object lives if that is a terminal, else a line
+/// now and then, ever more rarely. Give `callback()` to the work. Short work shows none.
 class ProgressBar {
  public:
   explicit ProgressBar(ColorChoice color);
@@ -36,7 +36,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Valid while the bar lives; empty when there is no terminal.
+  /// Valid while the bar lives.
   Progress callback();
 
  private:
@@ -45,7 +45,7 @@ class ProgressBar {
   bool on_terminal_;
   bool color_;
   bool shown_ = false;
-  std::chrono::steady_clock::time_point next_;
+  std::chrono::steady_clock::time_point begin_, next_;
 };
 
 }  // namespace faultline

@@ -101,7 +101,7 @@
       const heights = ['.before', '.fault'].map((part) => fault.querySelector(part).getAttribute('height'));
       if (heights[0] === heights[1]) say('only colour tells what is before the alarm: ' + where(fault));
     }
-    for (const link of document.querySelectorAll('a:not(svg a)'))
+    for (const link of document.querySelectorAll('a:not(svg a, .button)'))
       if (!getComputedStyle(link).textDecorationLine.includes('underline'))
         say('only colour tells a link: ' + where(link));
   }

@@ -232,10 +232,18 @@ Json BrowserPage::call(const std::string& method, const Json& parameters) {
   return browser_->call(session_, method, parameters);
 }
 
-void BrowserPage::open(const std::string& path) {
+void BrowserPage::open(const std::string& path) { open_address("file://" + path); }
+
+void BrowserPage::open_address(const std::string& url) {
   loaded_ = false;
-  call("Page.navigate", {{"url", "file://" + path}});
+  call("Page.navigate", {{"url", url}});
   while (!loaded_) browser_->wait_for_event();
+}
+
+void BrowserPage::choose_files(const std::string& selector, const std::vector<std::string>& paths) {
+  const Json root = call("DOM.getDocument").at("root").at("nodeId");
+  const Json node = call("DOM.querySelector", {{"nodeId", root}, {"selector", selector}}).at("nodeId");
+  call("DOM.setFileInputFiles", {{"nodeId", node}, {"files", paths}});
 }
 
 Json BrowserPage::evaluate(const std::string& expression) {

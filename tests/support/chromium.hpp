@@ -32,6 +32,10 @@ class BrowserPage {
   void prefer_dark(bool dark);
   /// Loads a file and waits until it is there.
   void open(const std::string& path);
+  /// The same for an address, such as of a service.
+  void open_address(const std::string& url);
+  /// Chooses files in the file field of this selector, as a person would.
+  void choose_files(const std::string& selector, const std::vector<std::string>& paths);
   /// Value of an expression in the page; a promise is waited for.
   nlohmann::json evaluate(const std::string& expression);
   void move_mouse(double x, double y);

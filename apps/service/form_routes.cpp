@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "apps/service/http.hpp"
+#include "apps/service/service.hpp"
+#include "apps/service/stated_cases.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/enum_named.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
+
+namespace faultline {
+namespace {
+
+using httplib::ContentReader;
+using httplib::Request;
+using httplib::Response;
+
+namespace fs = std::filesystem;
+
+constexpr const char* kModelEnding = ".model";
+
+std::int64_t now_s() {
+  return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+/// Sends the browser to another page: with 303, so that loading again does not send the form again.
+void send_to(const Request& request, Response& response, const std::string& address) {
+  if (request.get_header_value("Accept") == "application/json")
+    response.set_content(nlohmann::json{{"location", address}}.dump(), "application/json");
+  else
+    response.set_redirect(address, 303);
+}
+
+std::int64_t number_in(const std::string& text) {
+  constexpr std::size_t kMostDigits = 12;
+  const bool is_number = !text.empty() && text.size() <= kMostDigits &&
+                         text.find_first_not_of("0123456789") == std::string::npos;
+  return is_number ? std::stoll(text) : 0;
+}
+
+/// A folder for a job without files of its own.
+class EmptyIncoming {
+ public:
+  explicit EmptyIncoming(const ServiceFolder& folder) : path_(folder.new_incoming()) {
+    fs::create_directory(path_ + "/logs");
+  }
+  ~EmptyIncoming() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  EmptyIncoming(const EmptyIncoming&) = delete;
+  EmptyIncoming& operator=(const EmptyIncoming&) = delete;
+
+  const std::string& path() const { return path_; }
+  Job add_to(JobQueue& queue, JobRequest request) {
+    request.received_s = now_s();
+    Job job = queue.add(path_, request);
+    path_.clear();
+    return job;
+  }
+
+ private:
+  std::string path_;
+};
+
+/// One job for each log.
+std::string diagnose_logs(ServiceState& state, const SentForm& form) {
+  const std::string model = form.field("model");
+  if (!state.folder.has_model(model)) throw Error(ErrorCode::usage, "robot", "choose a robot of the list");
+  if (form.files().empty()) throw Error(ErrorCode::usage, "log", "choose at least one log");
+  std::int64_t last = 0;
+  for (const std::string& log : form.files()) {
+    EmptyIncoming incoming(state.folder);
+    fs::rename(form.folder() + "/logs/" + log, incoming.path() + "/logs/" + log);
+    last = incoming.add_to(state.queue, {JobKind::diagnose, model, {log}, {}, 0}).id;
+  }
+  return form.files().size() == 1 ? job_address(last) : robot_address(model);
+}
+
+std::string suggest_robot_file(ServiceState& state, SentForm& form) {
+  if (form.files().empty()) throw Error(ErrorCode::usage, "log", "choose at least one log");
+  const Job job = state.queue.add(form.folder(), {JobKind::suggest, "", form.files(), {}, now_s()});
+  form.forget_folder();
+  return job_address(job.id);
+}
+
+std::string learn_robot(ServiceState& state, const SentForm& form) {
+  static const std::regex plain("[A-Za-z0-9_-]{1,60}");
+  const std::string name = form.field("name"), model = name + kModelEnding;
+  if (!std::regex_match(name, plain))
+    throw Error(ErrorCode::usage, "name", "use 1 to 60 letters, digits, - and _");
+  if (state.folder.has_model(model))
+    throw Error(ErrorCode::usage, "name", "a robot of this name exists; choose another name");
+  EmptyIncoming incoming(state.folder);
+  write_file(incoming.path() + "/" + kSuggestedRobot, form.field("robot"));
+  return job_address(
+      incoming.add_to(state.queue, {JobKind::learn, model, {}, {number_in(form.field("of"))}, 0}).id);
+}
+
+std::string compare_logs(ServiceState& state, const SentForm& form) {
+  const std::string model = form.field("model");
+  if (!state.folder.has_model(model)) throw Error(ErrorCode::usage, "robot", "choose a robot of the list");
+  const std::int64_t first = number_in(form.field("first")), second = number_in(form.field("second"));
+  EmptyIncoming incoming(state.folder);
+  return job_address(incoming.add_to(state.queue, {JobKind::compare, model, {}, {first, second}, 0}).id);
+}
+
+/// Adds what a form asks for, and returns the address of the page to see next.
+std::string add_jobs(ServiceState& state, const Request&, SentForm& form) {
+  const auto kind =
+      enum_named(form.field("kind"), {JobKind::diagnose, JobKind::suggest, JobKind::learn, JobKind::compare});
+  if (!kind) throw Error(ErrorCode::usage, "the form", "asks for nothing that this service does");
+  switch (*kind) {
+    case JobKind::diagnose:
+      return diagnose_logs(state, form);
+    case JobKind::suggest:
+      return suggest_robot_file(state, form);
+    case JobKind::learn:
+      return learn_robot(state, form);
+    case JobKind::compare:
+      return compare_logs(state, form);
+    case JobKind::record:
+      break;
+  }
+  return "/";
+}
+
+Job named_job(const ServiceState& state, const Request& request) {
+  const auto job = state.queue.find(std::stoll(request.matches[1]));
+  if (!job) throw Error(ErrorCode::usage, "the job", "is not there; it may have been deleted");
+  return *job;
+}
+
+std::string cancel_job(ServiceState& state, const Request& request, SentForm&) {
+  const Job job = named_job(state, request);
+  state.queue.cancel(job.id);
+  return job_address(job.id);
+}
+
+std::string delete_job(ServiceState& state, const Request& request, SentForm&) {
+  const Job job = named_job(state, request);
+  if (!state.queue.remove(job.id)) throw Error(ErrorCode::usage, "the job", "runs; cancel it first");
+  return job.request.kind == JobKind::diagnose && state.folder.has_model(job.request.model)
+             ? robot_address(job.request.model)
+             : "/";
+}
+
+std::string record_run(ServiceState& state, const Request& request, SentForm&) {
+  const Job job = named_job(state, request);
+  EmptyIncoming incoming(state.folder);
+  return job_address(incoming.add_to(state.queue, {JobKind::record, job.request.model, {}, {job.id}, 0}).id);
+}
+
+std::string store_case(ServiceState& state, const Request& request, SentForm& form) {
+  const Job job = named_job(state, request);
+  if (job.request.kind != JobKind::diagnose || job.outcome.state != JobState::done)
+    throw Error(ErrorCode::usage, "the job", "has no diagnosis");
+  CaseStatement statement;
+  statement.fault_id = static_cast<int>(number_in(form.field("fault_id")));
+  statement.kind = form.field("kind");
+  statement.joint_number = static_cast<int>(number_in(form.field("joint")));
+  statement.what_was_done = form.field("done");
+  statement.person = form.field("by");
+  state_case(state.folder.model_path(job.request.model), state.folder.job_path(job.id), statement);
+  return job_address(job.id);
+}
+
+using FormAction = std::string (*)(ServiceState&, const Request&, SentForm&);
+
+int status_of(const Error& error) {
+  if (error.code() == ErrorCode::usage || error.code() == ErrorCode::input) return 422;
+  return error.code() == ErrorCode::output ? 507 : 500;
+}
+
+void answer_form(ServiceState& state, const Request& request, Response& response, const ContentReader& reader,
+                 FormAction action) {
+  const std::string session = cookie_value(request.get_header_value("Cookie"), "faultline");
+  SentForm form;
+  const FormAnswer read = read_form(
+      request, reader, state.folder, state.options.form,
+      [&](const SentForm& so_far) { return state.access.is_form_key(session, so_far.field("key")); }, form);
+  if (read.status != 200) return send_refusal(state, request, response, read.status, read.sentence);
+  try {
+    send_to(request, response, action(state, request, form));
+  } catch (const Error& error) {
+    send_refusal(state, request, response, status_of(error), error.what());
+  }
+}
+
+void log_in(ServiceState& state, const Request& request, Response& response, const ContentReader& reader) {
+  SentForm form;
+  FormLimits limits;
+  limits.most_files = 0;
+  const FormAnswer read = read_form(
+      request, reader, state.folder, limits, [](const SentForm&) { return true; }, form);
+  if (read.status != 200) return send_page(response, login_page(read.sentence), read.status);
+  if (!state.logins.allows(request.remote_addr))
+    return send_page(response, login_page("Too many tries; wait a minute."), 429);
+  if (!state.access.needs_token() || !state.access.is_token(form.field("token")))
+    return send_page(response, login_page("This is not the token of the service."), 403);
+  set_session(state, response, state.access.new_session());
+  response.set_redirect("/", 303);
+}
+
+std::string log_out(ServiceState&, const Request&, SentForm&) { return "/login"; }
+
+}  // namespace
+
+void add_form_routes(httplib::Server& server, ServiceState& state) {
+  const auto post = [&](const char* pattern, FormAction action) {
+    server.Post(pattern,
+                [&state, action](const Request& request, Response& response, const ContentReader& reader) {
+                  answer_form(state, request, response, reader, action);
+                });
+  };
+  post("/jobs", add_jobs);
+  post("/jobs/([0-9]{1,12})/cancel", cancel_job);
+  post("/jobs/([0-9]{1,12})/delete", delete_job);
+  post("/jobs/([0-9]{1,12})/record", record_run);
+  post("/jobs/([0-9]{1,12})/case", store_case);
+  server.Post("/login", [&state](const Request& request, Response& response, const ContentReader& reader) {
+    log_in(state, request, response, reader);
+  });
+  server.Post("/logout", [&state](const Request& request, Response& response, const ContentReader& reader) {
+    set_session(state, response, "");
+    answer_form(state, request, response, reader, log_out);
+  });
+}
+
+}  // namespace faultline

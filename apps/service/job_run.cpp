@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "apps/service/job_run.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands.hpp"
+#include "apps/service/child.hpp"
+#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
+#include "lib/core/number_text.hpp"
+#include "lib/core/text.hpp"
+#include "lib/fault/fault_catalogue.hpp"
+
+namespace faultline {
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::string logs_path(const ServiceFolder& folder, std::int64_t id) { return folder.job_path(id) + "/logs"; }
+
+/// Path of the log of an earlier job, from the folder of all jobs.
+std::string log_among_jobs(const ServiceFolder& folder, std::int64_t id) {
+  const Job job = read_job(folder.job_path(id), id);
+  const std::string own = std::filesystem::path(folder.job_path(id)).filename().string();
+  return own + "/logs/" + job.request.logs.at(0);
+}
+
+Words learn_words(const ServiceFolder& folder, const Job& job) {
+  const std::string own = folder.job_path(job.id) + "/";
+  const std::int64_t of = job.request.of.at(0);
+  Words words{"learn", "--robot", own + kSuggestedRobot, "-o", own + kLearnedModel};
+  const Job healthy = read_job(folder.job_path(of), of);
+  words.insert(words.end(), healthy.request.logs.begin(), healthy.request.logs.end());
+  return words;
+}
+
+/// Words of the command, and the folder in which it runs: that of the logs, so that reports show the names
+/// that the user gave them.
+ChildCommand command_of(const ServiceFolder& folder, const Job& job) {
+  const JobRequest& request = job.request;
+  const std::string own = folder.job_path(job.id) + "/";
+  ChildCommand command;
+  command.folder = logs_path(folder, job.id);
+  switch (request.kind) {
+    case JobKind::diagnose:
+      command.words = {"diagnose", request.logs.at(0), "--model", folder.model_path(request.model),
+                       "--json",   own + kReportJson,  "--html",  own + kReportPage};
+      break;
+    case JobKind::record: {
+      const std::int64_t of = request.of.at(0);
+      command.folder = logs_path(folder, of);
+      command.words = {"diagnose", read_job(folder.job_path(of), of).request.logs.at(0),
+                       "--model",  folder.model_path(request.model),
+                       "--mcap",   own + kRecording};
+      break;
+    }
+    case JobKind::suggest:
+      command.words = {"inspect", request.logs.at(0), "--suggest", own + kSuggestedRobot};
+      break;
+    case JobKind::learn:
+      command.folder = logs_path(folder, request.of.at(0));
+      command.words = learn_words(folder, job);
+      break;
+    case JobKind::compare:
+      command.folder = folder.jobs_path();
+      command.words = {"compare",
+                       log_among_jobs(folder, request.of.at(0)),
+                       log_among_jobs(folder, request.of.at(1)),
+                       "--model",
+                       folder.model_path(request.model),
+                       "--html",
+                       own + kComparisonPage};
+      break;
+  }
+  command.answer_path = own + kAnswer;
+  return command;
+}
+
+bool succeeded(JobKind kind, int status) {
+  if (status == kNothingFound) return true;
+  return status == kFindings && kind != JobKind::learn;
+}
+
+/// The first line of an answer that is not empty.
+std::string first_line(const std::string& text) {
+  std::size_t begin = text.find_first_not_of(" \n");
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+/// What a diagnosis found, such as "joint 1 is locked, from 8.440 s on, and 1 more fault".
+std::string found_sentence(const nlohmann::json& report) {
+  const auto& faults = report.at("faults");
+  if (faults.empty()) return report.at("verdict_reason").get<std::string>();
+  const auto& first = faults.at(0);
+  const FaultLabel label{fault_kind_from(first.at("kind").get<std::string>()),
+                         Joint::numbered(first.at("joint").is_null() ? 0 : first.at("joint").get<int>())};
+  const auto& period = report.at("log").at("sample_period_s");
+  std::string text =
+      plain_words(label) + ", from " +
+      time_text(first.at("onset_s").get<double>(), period.is_null() ? 0.0 : period.get<double>()) + " on";
+  if (faults.size() > 1) text += ", and " + counted(static_cast<long long>(faults.size()) - 1, "more fault");
+  return text;
+}
+
+JobOutcome diagnosis_outcome(const std::string& folder) {
+  const auto report = nlohmann::json::parse(read_file(folder + kReportJson));
+  return {JobState::done, report.at("verdict").get<std::string>(), found_sentence(report)};
+}
+
+JobOutcome done(const ServiceFolder& folder, const Job& job) {
+  const std::string own = folder.job_path(job.id) + "/";
+  switch (job.request.kind) {
+    case JobKind::diagnose:
+      return diagnosis_outcome(own);
+    case JobKind::record:
+      return {JobState::done, "", "The recording is ready."};
+    case JobKind::suggest:
+      return {JobState::done, "", "A robot file is suggested from the logs."};
+    case JobKind::learn:
+      folder.publish_model(own + kLearnedModel, job.request.model);
+      return {JobState::done, "", "The model is ready."};
+    case JobKind::compare:
+      return {JobState::done, "", first_line(read_file(own + kAnswer))};
+  }
+  return {};
+}
+
+/// The message of the command, without the name of the program before it.
+std::string message_of(const std::string& messages) {
+  constexpr std::string_view kName = "faultline: ";
+  const std::string text = messages.starts_with(kName) ? messages.substr(kName.size()) : messages;
+  return brief(text.substr(0, text.find_last_not_of('\n') + 1));
+}
+
+}  // namespace
+
+JobOutcome run_job(const ServiceFolder& folder, const Job& job, const JobProcess& process,
+                   const std::function<bool(const std::string& step, double share)>& goes_on) {
+  ChildCommand command = command_of(folder, job);
+  command.program = process.program;
+  command.most_s = process.most_s;
+  const ChildRun run =
+      run_child(command, [&](const ChildNews& news) { return goes_on(news.step, news.share); });
+  switch (run.end) {
+    case ChildEnd::stopped:
+      return {JobState::cancelled, "", "The job was cancelled."};
+    case ChildEnd::timed_out:
+      return {
+          JobState::failed, "",
+          fmt::format("The job took longer than the limit of {:.0f} s and was ended; use a shorter log, or "
+                      "start the service with a larger --most-minutes.",
+                      process.most_s)};
+    case ChildEnd::crashed:
+      return {JobState::failed, "",
+              fmt::format("The program ended by signal {}; the machine may have too little free memory.",
+                          run.status)};
+    case ChildEnd::exited:
+      break;
+  }
+  if (!succeeded(job.request.kind, run.status)) return {JobState::failed, "", message_of(run.messages)};
+  return done(folder, job);
+}
+
+}  // namespace faultline
