@@ -12,7 +12,7 @@
 namespace faultline {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 std::string button_form(const PageContext& context, const Job& job, const char* action, const char* words) {
   return fmt::format("<form method=\"post\" action=\"{}/{}\">{}<button>{}</button></form>\n",

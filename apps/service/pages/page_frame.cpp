@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "apps/service/pages/page_frame.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
+
+#include <array>
+#include <ctime>
 
 #include "lib/core/text.hpp"
 #include "lib/report/html/elements.hpp"
@@ -16,7 +18,11 @@ std::string hidden_field(const std::string& name, const std::string& value) {
 }
 
 std::string moment_text(std::int64_t seconds_since_1970) {
-  return fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(static_cast<std::time_t>(seconds_since_1970)));
+  const auto seconds = static_cast<std::time_t>(seconds_since_1970);
+  std::tm moment{};
+  ::gmtime_r(&seconds, &moment);
+  std::array<char, 32> text{};
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", &moment)};
 }
 
 std::string robot_address(const std::string& model) {
