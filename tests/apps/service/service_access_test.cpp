@@ -9,7 +9,7 @@
 #include "apps/service/access.hpp"
 #include "apps/service/form.hpp"
 #include "lib/core/hash.hpp"
-#include "tests/apps/service/served_folder.hpp"
+#include "tests/support/served_folder.hpp"
 
 namespace faultline {
 namespace {

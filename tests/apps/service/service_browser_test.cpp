@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "lib/core/atomic_file.hpp"
-#include "tests/apps/service/served_folder.hpp"
 #include "tests/browser/open_report.hpp"
+#include "tests/support/served_folder.hpp"
 
 namespace faultline {
 namespace {

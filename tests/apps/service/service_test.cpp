@@ -6,8 +6,8 @@
 
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
-#include "tests/apps/service/served_folder.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/served_folder.hpp"
 
 namespace faultline {
 namespace {

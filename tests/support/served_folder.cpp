@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/apps/service/served_folder.hpp"
+#include "tests/support/served_folder.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
