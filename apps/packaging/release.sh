@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes what is handed out of the last commit: the Debian packages, the Python wheel, the source archive and their
-# checksums.
+# Makes what is handed out of the last commit: the Debian packages, the Python wheel, the source archive, an archive that
+# runs on any x86-64 Linux, and their checksums.
 # The same commit gives the same bytes on the same Debian release.
 # Usage: bash apps/packaging/release.sh [FOLDER]     FOLDER is dist by default
 set -euo pipefail
@@ -32,10 +32,12 @@ cmake --build "$work/build" --parallel "$(nproc)" --target all faultline_wheel >
 # The reference BLAS stands for all of them, whichever this machine prefers.
 blas=$(dpkg -L libblas3 liblapack3 | grep '\.so\.3$' | xargs -n1 dirname | paste -sd:)
 (cd "$work/build" && LD_LIBRARY_PATH=$blas cpack -B "$work" >&2)
+LIBRARIES=$blas bash apps/packaging/portable.sh "$work/build/faultline" "$version" \
+  "$work/faultline-$version-linux-x86_64.tar.xz"
 
 mkdir -p "$out"
-rm -f "$out"/faultline_*.deb "$out"/libfaultline-dev_*.deb "$out"/python3-faultline_*.deb "$out"/faultline-*.tar.gz "$out"/faultline-*.whl
-cp "$work"/*.deb "$work"/build/dist/*.whl "$work/$source_archive" "$out"
-(cd "$out" && sha256sum -- *.deb *.whl "$source_archive" >SHA256SUMS)
+rm -f "$out"/faultline_*.deb "$out"/libfaultline-dev_*.deb "$out"/python3-faultline_*.deb "$out"/faultline-*.tar.* "$out"/faultline-*.whl
+cp "$work"/*.deb "$work"/build/dist/*.whl "$work/$source_archive" "$work"/faultline-*-linux-x86_64.tar.xz "$out"
+(cd "$out" && sha256sum -- *.deb *.whl *.tar.* >SHA256SUMS)
 echo "Of commit $commit, in $out:"
-(cd "$out" && ls -1s --block-size=K -- *.deb *.whl "$source_archive" SHA256SUMS)
+(cd "$out" && ls -1s --block-size=K -- *.deb *.whl *.tar.* SHA256SUMS)

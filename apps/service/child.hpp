@@ -10,7 +10,7 @@ namespace faultline {
 /// A command of this program that runs as a process of its own: an input that exhausts or ends it does not
 /// touch the service.
 struct ChildCommand {
-  std::string program = "/proc/self/exe";
+  std::string program;
   std::vector<std::string> words;  ///< after the name of the program
   std::string folder;              ///< where it runs
   std::string answer_path;         ///< file for its standard output

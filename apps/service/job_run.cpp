@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -137,6 +138,11 @@ std::string message_of(const std::string& messages) {
 }
 
 }  // namespace
+
+std::string own_program() {
+  const char* stated = std::getenv("FAULTLINE_PROGRAM");
+  return stated && *stated ? stated : "/proc/self/exe";
+}
 
 JobOutcome run_job(const ServiceFolder& folder, const Job& job, const JobProcess& process,
                    const std::function<bool(const std::string& step, double share)>& goes_on) {

@@ -9,10 +9,14 @@
 
 namespace faultline {
 
+/// Returns the path of this program: FAULTLINE_PROGRAM of the environment, which a script that starts it with
+/// libraries of its own sets, else what the system says.
+std::string own_program();
+
 /// The process of a job.
 struct JobProcess {
-  std::string program = "/proc/self/exe";  ///< faultline
-  double most_s = 3600.0;                  ///< it is ended after this time
+  std::string program = own_program();  ///< faultline
+  double most_s = 3600.0;               ///< it is ended after this time
 };
 
 /// Runs the command of a job in its folder and returns how it ended. `goes_on` receives the progress and

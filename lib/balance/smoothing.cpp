@@ -25,9 +25,10 @@ class NormalTable {
   }
 
   double at(double x) const {
+    if (std::isnan(x)) return x;
     if (std::abs(x) >= kEnd) return x > 0.0 ? 1.0 : 0.0;
     const double place = (x + kEnd) * kPerUnit;
-    const int k = static_cast<int>(place);
+    const int k = std::min(static_cast<int>(place), kNodes - 2);  // just below the end, `place` rounds to it
     const double s = place - k, r = 1.0 - s;
     return r * r * ((1.0 + 2.0 * s) * value_[k] + s * slope_[k]) +
            s * s * ((1.0 + 2.0 * r) * value_[k + 1] - r * slope_[k + 1]);

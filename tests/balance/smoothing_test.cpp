@@ -52,6 +52,8 @@ TEST(Smoothing, TheTabulatedNormalDistributionIsAccurate) {
     EXPECT_NEAR(normal_cdf(x), 0.5 * std::erfc(-x / std::sqrt(2.0)), 2e-9) << x;
   EXPECT_EQ(normal_cdf(-6.0), 0.0);
   EXPECT_EQ(normal_cdf(6.0), 1.0);
+  EXPECT_NEAR(normal_cdf(std::nextafter(6.0, 0.0)), 1.0, 2e-9);
+  EXPECT_TRUE(std::isnan(normal_cdf(NAN)));
 }
 
 }  // namespace faultline
