@@ -39,6 +39,9 @@ void add_reproduce(CLI::App& app, Program& program);
 void add_help(CLI::App& app, Program& program);
 void add_completion(CLI::App& app, Program& program);
 
+/// Adds the subcommand run of golden.
+void add_golden_run(CLI::App& golden, Program& program);
+
 /// Exit statuses of the program; scripts rely on them.
 inline constexpr int kNothingFound = 0;   ///< done, nothing wrong found
 inline constexpr int kFindings = 1;       ///< done, with findings: a fault, a severe issue, a mismatch

@@ -229,6 +229,7 @@ void add_golden(CLI::App& app, Program& program) {
   add_golden_check(golden, program);
   add_golden_accept(golden, program);
   add_golden_compare(golden, program);
+  add_golden_run(*golden, program);
   golden->footer(
       "Exit status 0: as expected, 1: something differs, 2: usage, 3: a golden file is damaged.\n"
       "Example: faultline golden record runs/*.csv --model robot.model -o golden");

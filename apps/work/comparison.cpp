@@ -3,20 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "lib/core/error.hpp"
 #include "lib/diagnose/monitor/model_rate.hpp"
 
 namespace faultline {
-namespace {
-
-struct ReadRun {
-  RunSignals signals;
-  std::optional<std::string> note;  ///< how the log was changed, in a sentence
-};
 
 ReadRun read_run(LogSource& log, const Model* model) {
   const std::string path = log.identity().path;
@@ -38,8 +30,6 @@ std::vector<char> turns_of(const Model& model) {
     turns.push_back(joint.kind == AxisKind::revolute);
   return turns;
 }
-
-}  // namespace
 
 ComparedLogs compare_logs(LogSource& first, LogSource& second, const Model* model, AlignmentKind align) {
   ReadRun a = read_run(first, model), b = read_run(second, model);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "lib/compare/compare_runs.hpp"
@@ -8,6 +10,18 @@
 #include "lib/model/model.hpp"
 
 namespace faultline {
+
+/// A log as it is compared.
+struct ReadRun {
+  RunSignals signals;
+  std::optional<std::string> note;  ///< how the log was changed, in a sentence
+};
+
+/// Reads a whole log; with a model (else null) with its residuals, at the rate of the model. Throws
+/// Error(input) for a log that cannot be resampled or is too short.
+ReadRun read_run(LogSource& log, const Model* model);
+/// Whether each joint of a model is revolute.
+std::vector<char> turns_of(const Model& model);
 
 /// Two runs as they are compared.
 struct ComparedLogs {

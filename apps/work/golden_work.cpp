@@ -8,12 +8,14 @@
 #include <memory>
 #include <set>
 
+#include "apps/work/comparison.hpp"
 #include "apps/work/file_use.hpp"
 #include "apps/work/labels.hpp"
 #include "apps/work/robot_log.hpp"
 #include "formats/open_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/files/inner_file.hpp"
 #include "lib/core/files/output_place.hpp"
 #include "lib/golden/check.hpp"
 #include "lib/golden/golden_folder.hpp"
@@ -176,6 +178,38 @@ void carry_out(const AcceptPlan& plan, const AcceptArguments& arguments) {
   const NewModel model = arguments.has_new_model() ? NewModel{arguments.model, &plan.subject} : NewModel{};
   accept_golden(folder, plan.set, plan.run, plan.names, model, default_tolerances(plan.subject.model));
   remove_orphaned_files(folder, load_golden(folder));
+}
+
+std::vector<NewRunCheck> check_new_runs(const NewRunArguments& arguments) {
+  const GoldenSet set = load_golden(arguments.folder);
+  FileUse files;
+  for (const std::string& log : arguments.logs) files.reads("the log", log);
+  GoldenArguments folder;
+  folder.folder = arguments.folder;
+  reads_golden(files, folder, set);
+  files.writes("--json", arguments.json).writes("--junit", arguments.junit).claim();
+  const Model model = load_golden_model(arguments.folder, set).model;
+  std::vector<RunSignals> recorded;
+  for (const GoldenLog& log : set.logs) {
+    if (log.expected.verdict != to_string(Verdict::healthy)) continue;
+    if (!log.damage.empty()) throw Error(ErrorCode::input, log.log.path, log.damage);
+    const auto source = open_robot_log(arguments.folder + "/" + log.log.path, model.robot);
+    recorded.push_back(read_run(*source, &model).signals);
+    recorded.back().name = log.name();
+  }
+  if (recorded.empty())
+    throw Error(ErrorCode::usage, arguments.folder,
+                "has no healthy run; record logs of healthy runs with faultline golden record");
+  const std::string widened = arguments.folder + "/runs.toml";
+  const auto tolerances = has_inner_file(arguments.folder, widened)
+                              ? widened_tolerances(read_inner_file(arguments.folder, widened), widened)
+                              : std::vector<WidenedTolerance>{};
+  std::vector<NewRunCheck> runs;
+  for (const std::string& log : arguments.logs) {
+    const auto source = open_robot_log(log, model.robot);
+    runs.push_back(check_new_run(read_run(*source, &model).signals, recorded, tolerances, turns_of(model)));
+  }
+  return runs;
 }
 
 }  // namespace faultline

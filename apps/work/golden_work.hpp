@@ -6,6 +6,7 @@
 
 #include "apps/work/file_use.hpp"
 #include "lib/golden/check.hpp"
+#include "lib/golden/new_run.hpp"
 #include "lib/golden/record.hpp"
 #include "lib/golden/replay.hpp"
 
@@ -65,5 +66,16 @@ struct AcceptPlan {
 AcceptPlan plan_accept(const AcceptArguments& arguments, const Progress& progress);
 /// Makes the results of the plan's names the expected ones; for a plan that is not refused.
 void carry_out(const AcceptPlan& plan, const AcceptArguments& arguments);
+
+/// New runs that are held against a folder.
+struct NewRunArguments {
+  std::vector<std::string> logs;
+  std::string folder;
+  std::string json, junit;
+};
+/// Checks each log against the recorded runs that are expected to be healthy, with the tolerances of
+/// runs.toml in the folder, if it is there. Throws Error(usage) for a mistake in that file or a folder
+/// without healthy runs, Error(input) for a damaged recorded run or an unreadable log.
+std::vector<NewRunCheck> check_new_runs(const NewRunArguments& arguments);
 
 }  // namespace faultline
