@@ -34,8 +34,8 @@ void add_golden_run(CLI::App& golden, Program& program) {
   add_file_option(*command, "--junit", arguments->junit,
                   "Write JUnit XML with a case for each run and signal");
   command->footer(
-      "Runs are aligned by their motion. A tolerance is the spread of the recorded healthy runs; runs.toml of\n"
-      "the folder makes it wider, with a reason.\n"
+      "Runs are aligned by their motion. A tolerance is the spread of the recorded healthy runs;\n"
+      "runs.toml of the folder makes it wider, with a reason.\n"
       "Exit status 0: as recorded, 1: a run differs, or its motion is not recorded.\n"
       "Example: faultline golden run new/*.csv --against golden --junit runs.xml");
   command->callback(
