@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -33,8 +34,7 @@ std::map<SignalKey, double> spread_of(const std::vector<const RunSignals*>& runs
           double& widest = spread[{signal.quantity, signal.joint}];
           widest = std::max(widest, std::abs(signal.largest));
         }
-  const double few = runs.size() > 1 ? 1.0 + 1.0 / static_cast<double>(runs.size() - 1) : 1.0;
-  for (auto& [key, widest] : spread) widest *= few;
+  for (auto& [key, widest] : spread) widest *= few_runs_factor(static_cast<int>(runs.size()));
   return spread;
 }
 
@@ -80,6 +80,13 @@ double distance(const NewRunCheck& check) {
 }
 
 }  // namespace
+
+double few_runs_factor(int recorded) {
+  // Quantiles .99 of |new - nearest| / (largest - smallest) of 2, 3, .. normal draws and a new one.
+  static constexpr std::array kFactors{54.1, 5.48, 2.45, 1.57, 1.17};
+  const auto place = static_cast<std::size_t>(recorded - 2);
+  return place < kFactors.size() ? kFactors[place] : 1.0;
+}
 
 std::vector<WidenedTolerance> widened_tolerances(const std::string& text, const std::string& where) {
   const TomlTable file = TomlTable::parse(text, where);

@@ -47,9 +47,14 @@ struct NewRunCheck {
   bool same() const { return !nearest.empty() && !first_leaving(); }
 };
 
+/// Returns the tolerance in units of the largest difference among so many recorded runs, at least two. Few runs
+/// show less than all: where runs differ by one normal effect, a new run leaves this tolerance of its nearest
+/// recorded run in one case of 100. At least 1.
+double few_runs_factor(int recorded);
+
 /// Compares a run with recorded healthy ones. Of those with its motion, the one is taken that it resembles
-/// most. The tolerance of a signal is the largest difference that these recorded runs have among themselves,
-/// larger by one part in their number less one as few runs show less than all, and never below their noise.
+/// most. The tolerance of a signal is the largest difference that these recorded runs have among themselves
+/// times few_runs_factor(), and never below their noise.
 /// `turns` as for unit_of(). Throws Error(input) as compare_runs().
 NewRunCheck check_new_run(const RunSignals& run, const std::vector<RunSignals>& recorded,
                           const std::vector<WidenedTolerance>& widened, const std::vector<char>& turns);

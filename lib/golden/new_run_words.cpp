@@ -27,7 +27,11 @@ std::string leaving_words(const SignalCheck& signal) {
 }
 
 std::string basis_words(const NewRunCheck& run) {
-  if (run.recorded > 1)
+  if (run.recorded == 2)
+    return fmt::format(
+        "nearest {} of 2 recorded runs of this motion, which hardly show how runs differ; record more",
+        printable(run.nearest));
+  if (run.recorded > 2)
     return fmt::format("nearest {} of {} recorded runs of this motion", printable(run.nearest), run.recorded);
   return fmt::format(
       "{} is the only recorded run of this motion, so the tolerance is its noise alone; record more of them",

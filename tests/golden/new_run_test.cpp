@@ -65,14 +65,35 @@ TEST(NewRun, DaysWithinTheSpreadOfTheRecordedOnesAreAsRecorded) {
   EXPECT_FALSE(alone.same()) << "one recorded run does not show how days differ";
 }
 
+TEST(NewRun, OneNewRunIn100LeavesTheToleranceOfFewRuns) {
+  Random random(1);
+  for (const int recorded : {3, 4, 5, 6}) {
+    constexpr int kDraws = 40000;
+    int leave = 0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      const double fresh = random.normal();
+      double low = INFINITY, high = -INFINITY, nearest = INFINITY;
+      for (int i = 0; i < recorded; ++i) {
+        const double day = random.normal();
+        low = std::min(low, day);
+        high = std::max(high, day);
+        nearest = std::min(nearest, std::abs(day - fresh));
+      }
+      leave += nearest > few_runs_factor(recorded) * (high - low);
+    }
+    EXPECT_NEAR(leave / static_cast<double>(kDraws), 0.01, 0.002) << recorded;
+  }
+  for (int recorded = 2; recorded < 20; ++recorded) EXPECT_GE(few_runs_factor(recorded), 1.0);
+}
+
 TEST(NewRun, TheToleranceIsNeverBelowTheSpread) {
   const NewRunCheck check = check_new_run(made_run("new", 5, {0.1}), recorded_days(), {}, {1});
-  EXPECT_GT(torque_of(check).tolerance, 0.55);
-  EXPECT_LT(torque_of(check).tolerance, 1.2);
+  EXPECT_GT(torque_of(check).tolerance, few_runs_factor(3) * 0.55);
+  EXPECT_LT(torque_of(check).tolerance, few_runs_factor(3) * 0.75);
 }
 
 TEST(NewRun, WhatTheRecordedRunsDoNotShowIsFoundWithItsTime) {
-  const NewRunCheck check = check_new_run(made_run("new", 4, {0.1, 2.0}), recorded_days(), {}, {1});
+  const NewRunCheck check = check_new_run(made_run("new", 4, {0.1, 5.0}), recorded_days(), {}, {1});
   ASSERT_NE(check.first_leaving(), nullptr);
   EXPECT_EQ(check.first_leaving()->quantity, "torque");
   EXPECT_NEAR(check.first_leaving()->leaves_s, 6.01, 0.03);
@@ -94,7 +115,7 @@ TEST(NewRun, AnotherMotionIsNotRecorded) {
 TEST(NewRun, AWiderToleranceNeedsAFactorFromOneAndAReason) {
   const auto widened = widened_tolerances(
       "[[widen]]\nsignal = \"torque\"\njoint = 1\nfactor = 4.0\nreason = \"new grease\"\n", "runs.toml");
-  const NewRunCheck check = check_new_run(made_run("new", 4, {0.1, 2.0}), recorded_days(), widened, {1});
+  const NewRunCheck check = check_new_run(made_run("new", 4, {0.1, 5.0}), recorded_days(), widened, {1});
   EXPECT_TRUE(check.same()) << to_text({check});
   EXPECT_EQ(torque_of(check).reason, "new grease");
   for (const char* text :
