@@ -47,9 +47,9 @@ struct NewRunCheck {
   bool same() const { return !nearest.empty() && !first_leaving(); }
 };
 
-/// Returns the tolerance in units of the largest difference among so many recorded runs, at least two. Few runs
-/// show less than all: where runs differ by one normal effect, a new run leaves this tolerance of its nearest
-/// recorded run in one case of 100. At least 1.
+/// Returns the tolerance in units of the largest difference among so many recorded runs, at least two. Few
+/// runs show less than all: where runs differ by one normal effect, a new run leaves this tolerance of its
+/// nearest recorded run in one case of 100. At least 1.
 double few_runs_factor(int recorded);
 
 /// Compares a run with recorded healthy ones. Of those with its motion, the one is taken that it resembles
