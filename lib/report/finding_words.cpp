@@ -140,6 +140,31 @@ std::string precedents_title(const FaultFinding& fault) {
   return "Similar cases (all simulated, none seen in the field)";
 }
 
+std::vector<Precedent> known_precedents(const FaultFinding& fault) {
+  std::vector<Precedent> known;
+  for (const Precedent& p : fault.precedents)
+    if (p.origin != CaseOrigin::simulated) known.push_back(p);
+  return known;
+}
+
+std::vector<Precedent> simulated_precedents(const FaultFinding& fault) {
+  std::vector<Precedent> simulated;
+  for (const Precedent& p : fault.precedents)
+    if (p.origin == CaseOrigin::simulated) simulated.push_back(p);
+  return simulated;
+}
+
+std::string simulated_precedents_words(const FaultFinding& fault) {
+  const std::vector<Precedent> simulated = simulated_precedents(fault);
+  if (simulated.empty()) return "";
+  const auto nearest =
+      std::max_element(simulated.begin(), simulated.end(),
+                       [](const Precedent& a, const Precedent& b) { return a.similarity < b.similarity; });
+  return fmt::format("{} simulated with the robot's model, the most similar is case {} ({:.2f}): {}",
+                     counted(std::ssize(simulated), "case"), nearest->case_id, nearest->similarity,
+                     plain_words(nearest->label));
+}
+
 std::string feature_value_text(double value, const std::string& unit) {
   return value_text(value) + (unit.empty() ? "" : " " + unit);
 }

@@ -43,6 +43,12 @@ std::vector<std::string> small_change_lines(const Diagnosis& diagnosis);
 /// "Similar cases", and what all of them are where none was confirmed in the field.
 std::string precedents_title(const FaultFinding& fault);
 
+/// Similar cases by origin: those of a person or of labelled logs, and those that were simulated.
+std::vector<Precedent> known_precedents(const FaultFinding& fault);
+std::vector<Precedent> simulated_precedents(const FaultFinding& fault);
+/// "7 simulated cases, the most similar is case 10 (0.93): joint 1 is locked"; empty without any.
+std::string simulated_precedents_words(const FaultFinding& fault);
+
 /// Value of a feature with its unit, such as "12 times healthy".
 std::string feature_value_text(double value, const std::string& unit);
 

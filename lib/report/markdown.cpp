@@ -71,14 +71,16 @@ std::string fault_table(const Diagnosis& d) {
 std::string similar_cases_table(const FaultFinding& f) {
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> why;
-  for (const Precedent& p : f.precedents) {
+  for (const Precedent& p : known_precedents(f)) {
     rows.push_back(precedent_cells(p));
     if (const std::string words = likeness_words(p, kShownFeatures); !words.empty())
       why.push_back(fmt::format("case {}, {}", p.case_id, words));
   }
-  const std::string cases = table({"similar case", "similarity", "fault", "origin", "action taken"}, rows);
-  if (cases.empty()) return "";
-  return "**" + precedents_title(f) + "**\n\n" + cases + list("Why they are similar", why);
+  std::string cases = table({"similar case", "similarity", "fault", "origin", "action taken"}, rows) +
+                      list("Why they are similar", why);
+  if (const std::string words = simulated_precedents_words(f); !words.empty())
+    cases += "- " + escaped_markdown(words) + "\n\n";
+  return cases.empty() ? "" : "**" + precedents_title(f) + "**\n\n" + cases;
 }
 
 std::string finding(const FaultFinding& f) {
@@ -120,8 +122,8 @@ std::string provenance(const Diagnosis& d) {
 }  // namespace
 
 std::string render_markdown(const Diagnosis& d) {
-  std::string text =
-      fmt::format("## {}\n\n**{}**\n\n", escaped_markdown(d.log.path), escaped_markdown(verdict_sentence(d)));
+  std::string text = fmt::format("## {}\n\nLog: {}\n\n", escaped_markdown(verdict_sentence(d)),
+                                 escaped_markdown(d.log.path));
   text += fault_table(d) + stop_section(d);
   for (const FaultFinding& f : d.faults) text += finding(f);
   text += list(kSmallChangesTitle, small_change_lines(d));

@@ -111,10 +111,11 @@ class FaultBlock {
 
   std::string precedents() const {
     std::string text;
-    const std::size_t shown = std::min<std::size_t>(fault_.precedents.size(), kShownPrecedents);
-    for (const Precedent& p : std::span(fault_.precedents).first(shown)) text += precedent(p);
-    if (fault_.precedents.size() > kShownPrecedents)
-      text += item(fmt::format("{} more", fault_.precedents.size() - kShownPrecedents));
+    const std::vector<Precedent> known = known_precedents(fault_);
+    const std::size_t shown = std::min<std::size_t>(known.size(), kShownPrecedents);
+    for (const Precedent& p : std::span(known).first(shown)) text += precedent(p);
+    if (known.size() > shown) text += item(fmt::format("{} more", known.size() - shown));
+    if (const std::string words = simulated_precedents_words(fault_); !words.empty()) text += item(words);
     return text.empty() ? "" : "  " + precedents_title(fault_) + "\n" + text;
   }
 

@@ -12,6 +12,7 @@
 namespace faultline {
 namespace {
 
+constexpr const char* kWordsLink = "<p class=\"sub\"><a href=\"#words\">What these words mean</a></p>\n";
 constexpr std::size_t kShownFaults = 12;  // in the table, before it is scrolled
 
 std::string times(const FaultFinding& f, double period_s) {
@@ -37,17 +38,25 @@ std::string likeness(const Precedent& p) {
       html_table({"likeness", "in", "here", "there", "difference"}, rows, fmt::format("Case {}", p.case_id)));
 }
 
-std::string precedents(const FaultFinding& f) {
+std::string precedent_table(const std::vector<Precedent>& cases, const std::string& caption) {
   std::vector<HtmlRow> rows;
   std::string why;
-  for (const Precedent& p : f.precedents) {
+  for (const Precedent& p : cases) {
     rows.push_back(precedent_cells(p));
     why += likeness(p);
   }
   if (!why.empty())
     why += "<p class=\"sub\">A difference of 1 is usual between cases of the same fault.</p>\n";
-  return html_table({"case", "similarity", "fault", "origin", "action taken"}, rows, precedents_title(f)) +
-         why;
+  return html_table({"case", "similarity", "fault", "origin", "action taken"}, rows, caption) + why;
+}
+
+/// Those that people or labelled logs stated, then the simulated ones in one line that opens.
+std::string precedents(const FaultFinding& f) {
+  std::string text = precedent_table(known_precedents(f), precedents_title(f));
+  if (const std::string words = simulated_precedents_words(f); !words.empty())
+    text += fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped_markup(words),
+                        precedent_table(simulated_precedents(f), "Simulated cases"));
+  return text;
 }
 
 std::string column(const std::string& content) {
@@ -75,7 +84,7 @@ std::string html_finding(const FaultFinding& f, const std::vector<PageFigure>& f
   text += html_plots(figures, f.id, period_s);
   text += "<div class=\"columns\">\n";
   text += column(html_part("It could also be", html_list(alternative_lines(f))));
-  text += column(html_part("Evidence", html_list(evidence_lines(f))));
+  text += column(html_part("Evidence", html_list(evidence_lines(f)) + kWordsLink));
   text +=
       column(html_part("Outputs of both networks", html_table({"network", "names", "confidence"},
                                                               opinion_rows(f), "Outputs of both networks")));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lib/core/error.hpp"
@@ -19,6 +20,8 @@
 
 namespace faultline {
 namespace {
+
+constexpr std::size_t kLongestTitle = 300;  // bytes of the title of the page
 
 FactTable option_table(const Model& model, const DiagnoseOptions& options) {
   FactTable table{"Options", {}, {}};
@@ -129,6 +132,43 @@ std::string provenance(const Diagnosis& d, const ReportDetails& details) {
          tables(details.provenance, "Provenance");
 }
 
+/// Words of the page that not every reader knows.
+constexpr std::array<std::array<const char*, 2>, 8> kWords{{
+    {"alarm", "earliest row at which what was seen so far would have raised the finding"},
+    {"confidence", "how often findings said with it are right, calibrated on simulated runs"},
+    {"evidence", "how much better the log is explained with the fault than without, in nats"},
+    {"MLP, RBFN",
+     "the two networks that classify the evidence: multi-layer perceptron, radial basis function network"},
+    {"nat", "unit of evidence: 1 nat is 2.7 times as likely, 18 nats some 66 million times"},
+    {"onset", "estimated begin of the fault"},
+    {"residual", "measured minus regenerated motion, in units of what is usual when healthy"},
+    {"similar case", "a remembered episode that resembles this one, with what was done about it"},
+}};
+
+std::string words_part() {
+  std::string text = "<h2 id=\"words\">Words</h2>\n<dl>\n";
+  for (const auto& [word, meaning] : kWords) text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", word, meaning);
+  return text + "</dl>\n";
+}
+
+/// Links to the parts of the page.
+std::string contents(const Diagnosis& d, bool has_condition, bool has_model) {
+  std::vector<std::pair<std::string, std::string>> links;
+  if (d.stop) links.emplace_back("stop", "The stop");
+  for (std::size_t i = 0; i < std::min<std::size_t>(d.faults.size(), kFullFindings); ++i)
+    links.emplace_back(fmt::format("fault-{}", d.faults[i].id), fmt::format("Fault {}", d.faults[i].id));
+  if (!d.small_changes.empty()) links.emplace_back("small", "Small changes");
+  if (has_condition) links.emplace_back("condition", "Condition");
+  links.emplace_back("run", "The whole run");
+  links.emplace_back("log", "Log quality");
+  if (has_model) links.emplace_back("model", "The model");
+  links.emplace_back("provenance", "Provenance");
+  links.emplace_back("words", "Words");
+  std::string text = "<nav class=\"contents\" aria-label=\"Contents\">\n";
+  for (const auto& [place, words] : links) text += fmt::format("<a href=\"#{}\">{}</a>\n", place, words);
+  return text + "</nav>\n";
+}
+
 std::string scripts(const std::string& plot_data) {
   return fmt::format(
       "<script type=\"application/json\" id=\"plot-data\">{}</script>\n<script>{}</script>\n<script>{}"
@@ -182,8 +222,10 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
   const std::vector<FaultFinding> faults = counted_from(zero_s, d.faults);
   const std::vector<PlotMark> marks = stop_marks(d, zero_s);
   const std::vector<PageFigure> whole = run_figures(faults, curves, marks);
-  std::string text = html_head(printable(d.log.path).substr(0, 200), !whole.empty()) + "<body>\n" + top(d) +
-                     "<main>\n" + stop_part(d);
+  const FactTable condition = condition_table(d);
+  const std::string title = verdict_sentence(d) + " " + printable(d.log.path);
+  std::string text = html_head(title.substr(0, kLongestTitle), !whole.empty()) + "<body>\n" + top(d) +
+                     contents(d, !condition.rows.empty(), !details.model.empty()) + "<main>\n" + stop_part(d);
   std::vector<PageFigure> all = whole;
   for (std::size_t i = 0; i < d.faults.size() && i < std::size_t{kFullFindings}; ++i) {
     const std::vector<PageFigure> figures = fault_figures(faults[i], curves, marks);
@@ -194,7 +236,6 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
   }
   if (!d.small_changes.empty())
     text += fmt::format("<h2 id=\"small\">{}</h2>\n", kSmallChangesTitle) + html_list(small_change_lines(d));
-  const FactTable condition = condition_table(d);
   if (!condition.rows.empty())
     text += fmt::format("<h2 id=\"condition\">{}</h2>\n", escaped_markup(condition.title)) +
             html_table(condition.head, condition.rows, condition.title);
@@ -202,7 +243,7 @@ std::string render_html(const Diagnosis& d, const ReportDetails& details) {
   text += log_quality(d);
   if (!details.model.empty())
     text += "<h2 id=\"model\">The model</h2>\n" + tables(details.model, "The model");
-  text += provenance(d, details) + "</main>\n";
+  text += provenance(d, details) + words_part() + "</main>\n";
   if (!whole.empty()) text += scripts(html_plot_data(faults, curves, all));
   return text + "</body>\n</html>\n";
 }
