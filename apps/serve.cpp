@@ -27,8 +27,9 @@ int run_serve(const ServeArguments& arguments) {
   options.queue.process.most_s = kSecondsPerMinute * arguments.most_minutes;
   options.form.most_file_bytes = static_cast<std::size_t>(arguments.most_mb) << 20;
   Service service(options);
-  const std::string host =
+  std::string host =
       options.address.find(':') != std::string::npos ? "[" + options.address + "]" : options.address;
+  if (options.address == "0.0.0.0" || options.address == "::") host = machine_name();
   print_message(fmt::format("the pages of {} are at http://{}:{}/ (end with Ctrl-C)", options.folder, host,
                             service.port()));
   if (!service.new_token().empty())

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/service/access.hpp"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <openssl/hmac.h>
@@ -28,15 +30,19 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The host without its port.
+/// The host without its port, in small letters; empty if it is not of that form.
 std::string name_of(const std::string& host) {
-  if (host.starts_with("[")) return lower(host.substr(0, host.find(']') + 1));
-  return lower(host.substr(0, host.find(':')));
+  static const std::regex form(R"((\[[0-9a-f:.]+\]|[a-z0-9_.-]+)(:[0-9]{1,5})?)");
+  const std::string small = lower(host);
+  std::smatch parts;
+  return std::regex_match(small, parts, form) ? parts[1].str() : "";
 }
 
 bool is_address(const std::string& name) {
-  static const std::regex address(R"([0-9]{1,3}(\.[0-9]{1,3}){3}|\[[0-9a-f:.]+\])");
-  return std::regex_match(name, address);
+  std::array<unsigned char, sizeof(in6_addr)> bytes;
+  if (name.starts_with("["))
+    return ::inet_pton(AF_INET6, name.substr(1, name.size() - 2).c_str(), bytes.data()) == 1;
+  return ::inet_pton(AF_INET, name.c_str(), bytes.data()) == 1;
 }
 
 }  // namespace
@@ -69,6 +75,11 @@ std::string Access::signature(const std::string& text) const {
     hex += kDigits[bytes[i] & 15u];
   }
   return hex;
+}
+
+std::string Access::cookie_name() const {
+  constexpr std::size_t kDigits = 8;
+  return "faultline_" + signature("cookie").substr(0, kDigits);
 }
 
 // The token is part of what is signed: a new token ends all sessions.

@@ -28,6 +28,8 @@ class Access {
   bool needs_token() const { return !token_sha256_.empty(); }
   bool is_token(const std::string& token) const;
 
+  /// Name of the cookie of this folder's service: browsers send one machine the cookies of all its ports.
+  std::string cookie_name() const;
   std::string new_session() const;
   bool is_session(const std::string& session) const;
   std::string form_key(const std::string& session) const;

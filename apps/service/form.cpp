@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
 
 #include "apps/service/http.hpp"
@@ -20,6 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestStoredName = 150;  // bytes
+constexpr double kPatience_s = 20.0;             // before a rate counts
+constexpr double kLeastBytesPerS = 1000.0;       // of an upload
 constexpr const char* kUnreadable = "The form cannot be read; load the page again and repeat.";
 
 /// Value of two hexadecimal digits; -1 if they are none.
@@ -96,10 +99,12 @@ class FormReader {
   }
 
   bool add(const char* bytes, std::size_t count) {
+    if (!is_fast_enough(count)) return false;
     return is_file_ ? add_to_file(bytes, count) : add_to_field(bytes, count);
   }
 
   bool add_to_body(const char* bytes, std::size_t count) {
+    if (!is_fast_enough(count)) return false;
     body_.append(bytes, count);
     return body_.size() <= limits_.most_field_bytes || refuse(413, "The form is too long.");
   }
@@ -115,6 +120,14 @@ class FormReader {
   }
 
  private:
+  /// A sender that keeps a connection open with a byte now and then would keep others out.
+  bool is_fast_enough(std::size_t count) {
+    received_ += static_cast<double>(count);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
+    return taken.count() < kPatience_s || received_ / taken.count() > kLeastBytesPerS ||
+           refuse(408, "The upload was too slow and was ended; nothing of it was kept.");
+  }
+
   bool refuse(int status, const std::string& sentence) {
     if (answer_.status == 200) answer_ = {status, sentence};
     return false;
@@ -178,6 +191,8 @@ class FormReader {
   bool is_file_ = false;
   int file_ = -1;
   std::size_t stored_ = 0, field_bytes_ = 0;
+  double received_ = 0.0;  // bytes
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 FormAnswer read_form(const httplib::Request& request, const httplib::ContentReader& reader,

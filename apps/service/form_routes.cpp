@@ -24,6 +24,7 @@ using httplib::Response;
 namespace fs = std::filesystem;
 
 constexpr const char* kModelEnding = ".model";
+constexpr std::size_t kLongestStatement = 2000;  // bytes of what was done, and of a name
 
 std::int64_t now_s() {
   return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
@@ -96,8 +97,8 @@ std::string learn_robot(ServiceState& state, const SentForm& form) {
   const std::string name = form.field("name"), model = name + kModelEnding;
   if (!std::regex_match(name, plain))
     throw Error(ErrorCode::usage, "name", "use 1 to 60 letters, digits, - and _");
-  if (state.folder.has_model(model))
-    throw Error(ErrorCode::usage, "name", "a robot of this name exists; choose another name");
+  if (!state.folder.is_free_name(model))
+    throw Error(ErrorCode::usage, "name", "a robot or a case base of this name exists; choose another name");
   EmptyIncoming incoming(state.folder);
   write_file(incoming.path() + "/" + kSuggestedRobot, form.field("robot"));
   return job_address(
@@ -162,10 +163,16 @@ std::string store_case(ServiceState& state, const Request& request, SentForm& fo
   const Job job = named_job(state, request);
   if (job.request.kind != JobKind::diagnose || job.outcome.state != JobState::done)
     throw Error(ErrorCode::usage, "the job", "has no diagnosis");
+  const std::string joint = form.field("joint");
+  if (joint.empty() || joint.find_first_not_of("0123456789") != std::string::npos)
+    throw Error(ErrorCode::usage, "joint", "choose a joint of the list, or none");
+  for (const char* field : {"done", "by"})
+    if (form.field(field).size() > kLongestStatement)
+      throw Error(ErrorCode::usage, field, fmt::format("write at most {} bytes", kLongestStatement));
   CaseStatement statement;
   statement.fault_id = static_cast<int>(number_in(form.field("fault_id")));
   statement.kind = form.field("kind");
-  statement.joint_number = static_cast<int>(number_in(form.field("joint")));
+  statement.joint_number = static_cast<int>(number_in(joint));
   statement.what_was_done = form.field("done");
   statement.person = form.field("by");
   state_case(state.folder.model_path(job.request.model), state.folder.job_path(job.id), statement);
@@ -181,7 +188,7 @@ int status_of(const Error& error) {
 
 void answer_form(ServiceState& state, const Request& request, Response& response, const ContentReader& reader,
                  FormAction action) {
-  const std::string session = cookie_value(request.get_header_value("Cookie"), "faultline");
+  const std::string session = sent_session(state, request);
   SentForm form;
   const FormAnswer read = read_form(
       request, reader, state.folder, state.options.form,

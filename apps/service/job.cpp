@@ -17,6 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::int64_t kLatestMoment_s = 100000000000;           // the year 5138
 constexpr std::size_t kMostRequestBytes = std::size_t{1} << 20;  // of a file about a job
 
 std::string request_path(const std::string& folder) { return folder + "/request.json"; }
@@ -32,7 +33,11 @@ JobRequest request_from(const Json& json) {
   request.model = json.at("model").get<std::string>();
   request.logs = json.at("logs").get<std::vector<std::string>>();
   request.of = json.at("of").get<std::vector<std::int64_t>>();
-  request.received_s = json.at("received_s").get<std::int64_t>();
+  const Json& received = json.at("received_s");
+  if (!received.is_number_integer() || received.get<std::int64_t>() < 0 ||
+      received.get<std::int64_t>() > kLatestMoment_s)
+    throw Error(ErrorCode::input, "received_s", "is no time");
+  request.received_s = received.get<std::int64_t>();
   return request;
 }
 
@@ -41,6 +46,18 @@ JobOutcome outcome_from(const Json& json) {
                                 {JobState::done, JobState::failed, JobState::cancelled});
   if (!state) throw Error(ErrorCode::input, "state", "is unknown");
   return {*state, json.at("verdict").get<std::string>(), json.at("sentence").get<std::string>()};
+}
+
+/// A damaged outcome counts as none: the job runs again.
+JobOutcome kept_outcome(const std::string& folder) {
+  if (!std::filesystem::exists(outcome_path(folder))) return {};
+  try {
+    return outcome_from(Json::parse(read_file(outcome_path(folder), kMostRequestBytes)));
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 }  // namespace
@@ -81,7 +98,7 @@ std::string title_of(const Job& job) {
   const JobRequest& request = job.request;
   switch (request.kind) {
     case JobKind::diagnose:
-      return request.logs.empty() ? "" : request.logs[0];
+      return request.logs.empty() ? "Damaged job" : request.logs[0];
     case JobKind::record:
       return fmt::format("Recording of run {}", request.of.at(0));
     case JobKind::suggest:
@@ -121,8 +138,7 @@ Job read_job(const std::string& folder, std::int64_t id) {
                                    : 0;
     if (job.request.of.size() != needed || (needed == 0 && job.request.logs.empty()))
       throw Error(ErrorCode::input, "of", "does not fit the kind");
-    if (std::filesystem::exists(outcome_path(folder)))
-      job.outcome = outcome_from(Json::parse(read_file(outcome_path(folder), kMostRequestBytes)));
+    job.outcome = kept_outcome(folder);
   } catch (const nlohmann::json::exception& error) {
     throw Error(ErrorCode::input, folder, std::string("is no job of faultline serve: ") + error.what());
   }

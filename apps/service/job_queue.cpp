@@ -12,15 +12,16 @@ namespace faultline {
 
 JobQueue::JobQueue(const ServiceFolder& folder, const QueueLimits& limits)
     : folder_(folder), limits_(limits) {
+  last_id_ = folder_.last_used_id();
   for (const std::int64_t id : folder_.job_ids()) {
-    last_id_ = id;
+    Job& job = jobs_[id];
     try {
-      const Job job = read_job(folder_.job_path(id), id);
-      jobs_[id] = job;
-      if (!job.has_ended()) waiting_.insert(id);
-    } catch (const Error&) {
-      continue;  // its number stays taken
+      job = read_job(folder_.job_path(id), id);
+    } catch (const Error& error) {
+      job.id = id;
+      job.outcome = {JobState::failed, "", brief(error.what())};
     }
+    if (!job.has_ended()) waiting_.insert(id);
   }
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   for (int i = 0; i < (limits_.workers > 0 ? limits_.workers : cores); ++i)
@@ -40,10 +41,10 @@ void JobQueue::check_needed_jobs(const JobRequest& request) const {
   for (const std::int64_t id : request.of) {
     const auto found = jobs_.find(id);
     if (found == jobs_.end())
-      throw Error(ErrorCode::usage, fmt::format("run {}", id), "is not there; it may have been deleted");
+      throw Error(ErrorCode::usage, fmt::format("job {}", id), "is not there; it may have been deleted");
     const JobKind needed = request.kind == JobKind::learn ? JobKind::suggest : JobKind::diagnose;
     if (found->second.request.kind != needed)
-      throw Error(ErrorCode::usage, fmt::format("run {}", id), "has no log that this could use");
+      throw Error(ErrorCode::usage, fmt::format("job {}", id), "has no log that this could use");
   }
 }
 
@@ -106,6 +107,12 @@ bool JobQueue::remove(std::int64_t id) {
     const std::lock_guard lock(mutex_);
     const auto found = jobs_.find(id);
     if (found == jobs_.end() || !found->second.has_ended()) return false;
+    for (const auto& [other_id, other] : jobs_) {
+      const std::vector<std::int64_t>& of = other.request.of;
+      if (!other.has_ended() && std::find(of.begin(), of.end(), id) != of.end())
+        throw Error(ErrorCode::usage, fmt::format("job {}", id),
+                    fmt::format("job {} still needs its logs; wait for it, or cancel it first", other_id));
+    }
     jobs_.erase(found);
     ++version_;
   }

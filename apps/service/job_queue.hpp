@@ -28,8 +28,8 @@ struct QueueLimits {
 /// Safe to call from several threads.
 class JobQueue {
  public:
-  /// Reads the jobs of the folder, which must outlive the queue, and starts the workers. Folders that are no
-  /// jobs are left alone.
+  /// Reads the jobs of the folder, which must outlive the queue, and starts the workers. A job whose files
+  /// are damaged is a failed one, which can be removed.
   JobQueue(const ServiceFolder& folder, const QueueLimits& limits);
   /// Ends running jobs; they run again at the next start.
   ~JobQueue();
@@ -46,7 +46,8 @@ class JobQueue {
 
   /// Ends a job that has not ended. Returns false if there is none.
   bool cancel(std::int64_t id);
-  /// Removes a job that has ended, with its files. Returns false if there is none.
+  /// Removes a job that has ended, with its files. Returns false if there is none. Throws Error(usage) if
+  /// another job still needs its logs.
   bool remove(std::int64_t id);
 
  private:

@@ -12,6 +12,7 @@
 #include "apps/service/stated_cases.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
+#include "lib/core/text.hpp"
 
 namespace faultline {
 namespace {
@@ -47,7 +48,8 @@ void show_home(ServiceState& state, const Request& request, Response& response) 
   std::vector<ServedRobot> robots;
   for (const std::string& model : state.folder.models()) robots.push_back({model, runs_of(jobs, model)});
   if (jobs.size() > kLatestJobs) jobs.resize(kLatestJobs);
-  send_page(response, home_page(context_for(state, request, response), robots, jobs));
+  send_page(response, home_page(context_for(state, request, response), robots,
+                                state.folder.models_without_cases(), jobs));
 }
 
 void show_robot(ServiceState& state, const Request& request, Response& response) {
@@ -74,7 +76,8 @@ JobFiles files_of(const ServiceState& state, const Job& job) {
     files.report = text_if_there(folder + kReportJson);
     files.answer = text_if_there(folder + kAnswer);
     files.robot_file = text_if_there(folder + kSuggestedRobot);
-    files.stated = read_stated_cases(folder);
+    if (state.folder.has_model(job.request.model))
+      files.stated = stated_cases(state.folder.model_path(job.request.model), folder);
   }
   for (const Job& other : state.queue.all()) {
     const bool is_earlier = other.id < job.id && !other.has_ended() && !other.running;
@@ -92,7 +95,17 @@ std::optional<Job> job_of(const ServiceState& state, const Request& request) {
 void show_job(ServiceState& state, const Request& request, Response& response) {
   const auto job = job_of(state, request);
   if (!job) return send_refusal(state, request, response, 404, kNotThere);
-  send_page(response, job_page(context_for(state, request, response), *job, files_of(state, *job)));
+  const PageContext context = context_for(state, request, response);
+  try {
+    send_page(response, job_page(context, *job, files_of(state, *job)));
+  } catch (const std::exception& error) {
+    Job damaged = *job;
+    damaged.running = false;
+    damaged.outcome = {
+        JobState::failed, "",
+        "The files of this job cannot be read; delete it, and send its log again: " + brief(error.what())};
+    send_page(response, job_page(context, damaged, {}));
+  }
 }
 
 void show_state(ServiceState& state, const Request& request, Response& response) {
@@ -101,17 +114,24 @@ void show_state(ServiceState& state, const Request& request, Response& response)
   std::size_t before = 0;
   if (!job->running && !job->has_ended()) before = files_of(state, *job).before;
   const nlohmann::json json{
-      {"ended", job->has_ended()}, {"share", job->share}, {"sentence", progress_sentence(*job, before)}};
+      {"ended", job->has_ended()},
+      {"share", job->share},
+      {"sentence", job->has_ended() ? job->outcome.sentence : progress_sentence(*job, before)}};
   response.set_content(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
                        "application/json");
 }
 
 /// Sends a file piece by piece.
-void send_file(Response& response, const std::string& path, const char* type) {
+void send_file(const Request& request, Response& response, const std::string& path, const char* type) {
   const auto file = std::make_shared<std::ifstream>(path, std::ios::binary);
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error || !*file) throw Error(ErrorCode::input, "the file", "is not there any more");
+  for (const auto& [first, last] : request.ranges)
+    if (first >= static_cast<ssize_t>(size) || (first < 0 && last <= 0)) {
+      response.status = 416;
+      return;
+    }
   response.set_content_provider(
       size, type, [file](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
         std::array<char, std::size_t{1} << 16> bytes;
@@ -139,7 +159,8 @@ void send_job_file(ServiceState& state, const Request& request, Response& respon
   if (has_ended && name == "log" && job->request.kind == JobKind::diagnose) {
     const std::string& log = job->request.logs.at(0);
     offer_as(response, log);
-    return send_file(response, state.folder.job_path(job->id) + "/logs/" + log, "application/octet-stream");
+    return send_file(request, response, state.folder.job_path(job->id) + "/logs/" + log,
+                     "application/octet-stream");
   }
   for (const JobFile& file : kJobFiles) {
     const std::string path = has_ended ? state.folder.job_path(job->id) + "/" + file.name : "";
@@ -148,7 +169,7 @@ void send_job_file(ServiceState& state, const Request& request, Response& respon
       response.set_header("Content-Security-Policy", report_policy());
     else
       offer_as(response, fmt::format("{}-{}", job->id, file.name));
-    return send_file(response, path, file.type);
+    return send_file(request, response, path, file.type);
   }
   send_refusal(state, request, response, 404, kNotThere);
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "apps/service/http.hpp"
 #include "lib/core/error.hpp"
@@ -18,20 +19,14 @@ using httplib::Request;
 using httplib::Response;
 using Handled = httplib::Server::HandlerResponse;
 
-constexpr const char* kCookie = "faultline";
 constexpr std::size_t kTokenBytes = 16;     // of a random token
 constexpr int kMostWrites = 600;            // forms of an address
 constexpr double kWritesWithin_s = 60.0;    // in this time
 constexpr int kMostLogins = 10;             // tries of an address to log in
 constexpr double kLoginsWithin_s = 60.0;    // in this time
-constexpr std::size_t kThreads = 32;        // so that slow connections leave room for others
+constexpr std::size_t kThreads = 256;       // so that slow connections leave room for others
 constexpr std::size_t kKeptRequests = 100;  // on one connection
 constexpr int kPatience_s = 30;             // for a connection that sends nothing
-
-std::string own_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "localhost";
-}
 
 bool is_loopback(const std::string& address) {
   return address == "localhost" || address == "::1" || address.starts_with("127.");
@@ -39,7 +34,7 @@ bool is_loopback(const std::string& address) {
 
 std::vector<std::string> host_names(const ServiceOptions& options) {
   std::vector<std::string> names = options.hosts;
-  names.push_back(own_name());
+  names.push_back(machine_name());
   return names;
 }
 
@@ -53,16 +48,18 @@ bool is_admitted(ServiceState& state, const Request& request, Response& response
     response.set_header("Connection", "close");  // the body was not read
     return false;
   };
-  if (!state.access.is_own_host(host))
-    return refuse(421, fmt::format("{} is no name of this service; start it with --host {} if it should be.",
-                                   shortened(host, kLongestName), shortened(host, kLongestName)));
+  if (request.get_header_value_count("Host") != 1 || !state.access.is_own_host(host)) {
+    const std::string name = shortened(host.substr(0, host.rfind(':')), kLongestName);
+    return refuse(
+        421, fmt::format("{0} is no name of this service; start it with --host {0} if it should be.", name));
+  }
   const bool writes = request.method != "GET" && request.method != "HEAD";
   if (writes && !state.access.is_own_origin(request.get_header_value("Origin"), host))
     return refuse(403, "The form comes from a page of another site.");
   if (writes && !state.writes.allows(request.remote_addr))
     return refuse(429, "Too many requests from this address; wait a minute.");
   if (!state.access.needs_token() || request.path == "/login") return true;
-  if (state.access.is_session(cookie_value(request.get_header_value("Cookie"), kCookie))) return true;
+  if (state.access.is_session(sent_session(state, request))) return true;
   if (writes || wants_json(request)) return refuse(401, "Log in first.");
   response.set_redirect("/login", 303);
   return false;
@@ -74,6 +71,11 @@ void set_up(httplib::Server& server, ServiceState& state) {
   server.set_read_timeout(kPatience_s);
   server.set_write_timeout(kPatience_s);
   server.set_tcp_nodelay(true);
+  server.set_socket_options(
+      [](socket_t socket) {  // without SO_REUSEPORT, which lets two programs share a port
+        const int on = 1;
+        ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+      });
   server.set_default_headers({{"X-Content-Type-Options", "nosniff"},
                               {"X-Frame-Options", "DENY"},
                               {"Referrer-Policy", "same-origin"},
@@ -89,14 +91,19 @@ void set_up(httplib::Server& server, ServiceState& state) {
   server.set_error_handler([&state](const Request& request, Response& response) {
     if (response.body.empty() && response.status >= 400)
       send_refusal(state, request, response, response.status,
-                   response.status == 413 ? "The upload is larger than the limit of this service."
-                                          : "There is no such page.");
+                   response.status == 404 ? "There is no such page."
+                                          : "The service does not understand this request.");
   });
   add_reading_routes(server, state);
   add_form_routes(server, state);
 }
 
 }  // namespace
+
+std::string machine_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "localhost";
+}
 
 ServiceState::ServiceState(const ServiceOptions& given, const std::string& token)
     : options(given),
@@ -109,12 +116,17 @@ ServiceState::ServiceState(const ServiceOptions& given, const std::string& token
 
 void set_session(const ServiceState& state, Response& response, const std::string& session) {
   response.set_header(
-      "Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}{}", kCookie, session,
-                                state.options.https ? "; Secure" : "", session.empty() ? "; Max-Age=0" : ""));
+      "Set-Cookie",
+      fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}{}", state.access.cookie_name(), session,
+                  state.options.https ? "; Secure" : "", session.empty() ? "; Max-Age=0" : ""));
+}
+
+std::string sent_session(const ServiceState& state, const Request& request) {
+  return cookie_value(request.get_header_value("Cookie"), state.access.cookie_name());
 }
 
 std::string session_for(const ServiceState& state, const Request& request, Response& response) {
-  std::string session = cookie_value(request.get_header_value("Cookie"), kCookie);
+  std::string session = sent_session(state, request);
   if (state.access.is_session(session)) return session;
   if (state.access.needs_token()) return "";
   session = state.access.new_session();
@@ -143,8 +155,11 @@ void send_refusal(const ServiceState& state, const Request& request, Response& r
                          "application/json");
     return;
   }
-  send_page(response, message_page(context_for(state, request, response), "This did not work", sentence),
-            status);
+  static const std::regex of_a_job("(/jobs/[0-9]{1,12})/.*");
+  std::smatch job;
+  const std::string back = std::regex_match(request.path, job, of_a_job) ? job[1].str() : "/";
+  send_page(response,
+            message_page(context_for(state, request, response), "This did not work", sentence, back), status);
 }
 
 Service::Service(const ServiceOptions& options) {

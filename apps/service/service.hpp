@@ -31,6 +31,9 @@ struct ServiceOptions {
   FormLimits form{};
 };
 
+/// Name of this machine, under which others may reach it.
+std::string machine_name();
+
 /// What the handlers of requests share.
 struct ServiceState {
   ServiceState(const ServiceOptions& options, const std::string& token);
@@ -45,6 +48,8 @@ struct ServiceState {
 
 /// Gives a session to the browser; an empty one ends it.
 void set_session(const ServiceState& state, httplib::Response& response, const std::string& session);
+/// The session that a request came with; empty without one.
+std::string sent_session(const ServiceState& state, const httplib::Request& request);
 /// The session of a request; a new one if it has none, which `response` then gives to the browser.
 std::string session_for(const ServiceState& state, const httplib::Request& request,
                         httplib::Response& response);

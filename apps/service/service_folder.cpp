@@ -65,7 +65,27 @@ void write_private_file(const std::string& path, const std::string& text) {
 
 std::string kept_secret(const std::string& path) {
   if (!fs::exists(path)) write_private_file(path, random_hex(kSecretBytes) + "\n");
-  return read_file(path).substr(0, 2 * kSecretBytes);
+  const std::string secret = read_file(path);
+  if (secret.size() != 2 * kSecretBytes + 1)
+    throw Error(
+        ErrorCode::input, path,
+        "is damaged; delete it: the service makes a new one, and pages that are open have to be loaded again");
+  return secret.substr(0, 2 * kSecretBytes);
+}
+
+/// The number of the last job that was removed, so that no number is used twice; 0 if there is none.
+std::int64_t kept_number(const std::string& path) {
+  if (!fs::exists(path)) return 0;
+  const std::string text = read_file(path);
+  std::int64_t number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+/// Throws Error(usage) if a file of that name is there with other bytes.
+void refuse_other_file(const std::string& from, const std::string& to, const std::string& name) {
+  if (fs::exists(to) && sha256_of_file(from) != sha256_of_file(to))
+    throw Error(ErrorCode::usage, name, "exists already; choose another name");
 }
 
 /// Moves a file to a name that no other file has; the same bytes there are those of an earlier, interrupted
@@ -73,8 +93,7 @@ std::string kept_secret(const std::string& path) {
 void move_new(const std::string& from, const std::string& to, const std::string& name) {
   if (::link(from.c_str(), to.c_str()) != 0) {
     if (errno != EEXIST) fail_to_write(to, "created");
-    if (sha256_of_file(from) != sha256_of_file(to))
-      throw Error(ErrorCode::usage, name, "exists already; choose another name");
+    refuse_other_file(from, to, name);
   }
   fs::remove(from);
 }
@@ -99,10 +118,11 @@ std::string random_hex(std::size_t bytes) {
 
 ServiceFolder::ServiceFolder(std::string folder) : folder_(std::move(folder)) {
   std::error_code error;
-  folder_ = fs::canonical(folder_, error).string();
+  const std::string given = folder_;
+  folder_ = fs::canonical(given, error).string();
   if (error || !fs::is_directory(folder_))
-    throw Error(ErrorCode::input, folder_,
-                "is not a folder; give the folder that holds the models, or an empty one");
+    throw Error(ErrorCode::input, given,
+                "is not a folder; make it, or give the folder that holds the models");
   state_ = folder_ + "/serve";
   create_private_folder(state_);
   lock_ = lock_of(state_ + "/lock");
@@ -127,6 +147,23 @@ std::vector<std::string> ServiceFolder::models() const {
   return names;
 }
 
+std::vector<std::string> ServiceFolder::models_without_cases() const {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator at(folder_, error), end; !error && at != end; at.increment(error)) {
+    const std::string ending = at->path().extension().string(), path = at->path().string();
+    if ((ending == ".model" || ending == ".json") && is_file(path) && !is_file(case_base_path(path)))
+      names.push_back(at->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+bool ServiceFolder::is_free_name(const std::string& name) const {
+  const std::string path = folder_ + "/" + name;
+  return !fs::exists(path) && !fs::exists(case_base_path(path));
+}
+
 bool ServiceFolder::has_model(const std::string& name) const {
   const std::string path = folder_ + "/" + name;
   return is_plain_name(name) && is_file(path) && is_file(case_base_path(path));
@@ -139,6 +176,8 @@ std::string ServiceFolder::model_path(const std::string& name) const {
 
 void ServiceFolder::publish_model(const std::string& learned, const std::string& name) const {
   const std::string path = folder_ + "/" + name;
+  refuse_other_file(learned, path, name);
+  refuse_other_file(case_base_path(learned), case_base_path(path), name);
   // The model last: a case base alone is no model of the service.
   move_new(case_base_path(learned), case_base_path(path), name);
   move_new(learned, path, name);
@@ -162,7 +201,14 @@ std::vector<std::int64_t> ServiceFolder::job_ids() const {
   return ids;
 }
 
+std::int64_t ServiceFolder::last_used_id() const {
+  const std::vector<std::int64_t> ids = job_ids();
+  return std::max(ids.empty() ? 0 : ids.back(), kept_number(state_ + "/last_removed"));
+}
+
 void ServiceFolder::remove_job(std::int64_t id) const {
+  if (id > kept_number(state_ + "/last_removed"))
+    write_private_file(state_ + "/last_removed", std::to_string(id) + "\n");
   // Renamed first, so that a kill in between leaves no half job.
   const std::string doomed = new_incoming() + "/removed";
   fs::rename(job_path(id), doomed);

@@ -24,6 +24,10 @@ class ServiceFolder {
   /// Names of the models, sorted.
   std::vector<std::string> models() const;
   bool has_model(const std::string& name) const;
+  /// Names of files that look like models but have no case base beside them, sorted.
+  std::vector<std::string> models_without_cases() const;
+  /// Whether a new model can have this name.
+  bool is_free_name(const std::string& name) const;
   /// Path of a model of models(). Throws Error(usage) for another name.
   std::string model_path(const std::string& name) const;
   /// Moves a learned model and its case base into the folder. Throws Error(usage) if another file of that
@@ -32,6 +36,8 @@ class ServiceFolder {
 
   std::string jobs_path() const { return state_ + "/jobs"; }
   std::string job_path(std::int64_t id) const;
+  /// The largest number that a job has or had.
+  std::int64_t last_used_id() const;
   /// Numbers of all jobs, sorted.
   std::vector<std::int64_t> job_ids() const;
   /// Removes the folder of a job completely.

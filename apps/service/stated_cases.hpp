@@ -16,12 +16,13 @@ struct CaseStatement {
 };
 
 /// Adds the fault of a diagnosis in `job_folder` to the case base of `model`, confirmed with this statement,
-/// and remembers the case in the folder. When it returns, the case survives a loss of power. Throws as
-/// faultline cases add, such as for a joint that the robot does not have.
-StatedCase state_case(const std::string& model, const std::string& job_folder,
-                      const CaseStatement& statement);
+/// and remembers the case in the folder. When it returns, the case survives a loss of power. A later
+/// statement about the same event replaces the earlier one. Throws as faultline cases add, such as for a
+/// joint that the robot does not have.
+void state_case(const std::string& model, const std::string& job_folder, const CaseStatement& statement);
 
-/// All statements about the faults of a job, in their order.
-std::vector<StatedCase> read_stated_cases(const std::string& job_folder);
+/// The cases of the faults of a job, by fault, as they stand in the case base now. Throws Error(input) if it
+/// cannot be read.
+std::vector<StatedCase> stated_cases(const std::string& model, const std::string& job_folder);
 
 }  // namespace faultline

@@ -103,7 +103,7 @@ void ServedFolder::end(int signal) {
 
 ServiceAnswer Visitor::get(const std::string& path, const Headers& headers) {
   ServiceAnswer answer = answer_of(client_of(service_).Get(path.c_str(), with_cookie(headers, cookie)));
-  const std::string fresh = found_in(answer.set_cookie, "^(faultline=[^;]*)");
+  const std::string fresh = found_in(answer.set_cookie, "^(faultline_[0-9a-f]+=[^;]*)");
   if (!fresh.empty()) cookie = fresh;
   return answer;
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "apps/service/pages/pages.hpp"
+#include "lib/cases/case_file.hpp"
 #include "lib/core/text.hpp"
 #include "lib/report/html/elements.hpp"
 
@@ -89,7 +90,7 @@ std::string drop_form(const PageContext& context, const std::vector<std::string>
 }
 
 std::string home_page(const PageContext& context, const std::vector<ServedRobot>& robots,
-                      const std::vector<Job>& latest) {
+                      const std::vector<std::string>& without_cases, const std::vector<Job>& latest) {
   std::string text = "<h1>Robots</h1>\n";
   std::vector<std::string> models;
   for (const ServedRobot& robot : robots) models.push_back(robot.model);
@@ -99,6 +100,11 @@ std::string home_page(const PageContext& context, const std::vector<ServedRobot>
         "copy a model and its case base, as faultline learn writes them, into the folder.</p>\n";
   else
     text += drop_form(context, models) + robots_table(robots);
+  for (const std::string& name : without_cases)
+    text += fmt::format(
+        "<p>{0} is not listed: its case base {1} is missing; copy it into the folder, as faultline learn wrote "
+        "it.</p>\n",
+        safe_text(name), safe_text(case_base_path(name)));
   if (!latest.empty()) text += "<h2>Latest</h2>\n" + job_table(latest, true);
   return service_page(context, "Robots", text);
 }

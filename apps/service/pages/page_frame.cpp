@@ -61,11 +61,12 @@ std::string service_page(const PageContext& context, const std::string& title, c
                             service_script());
 }
 
-std::string message_page(const PageContext& context, const std::string& title, const std::string& sentence) {
+std::string message_page(const PageContext& context, const std::string& title, const std::string& sentence,
+                         const std::string& back) {
   return service_page(
       context, title,
-      fmt::format("<h1>{}</h1>\n<p role=\"alert\">{}</p>\n<p><a href=\"/\">To the robots</a></p>\n",
-                  safe_text(title), safe_text(sentence)));
+      fmt::format("<h1>{}</h1>\n<p role=\"alert\">{}</p>\n<p><a href=\"{}\">{}</a></p>\n", safe_text(title),
+                  safe_text(sentence), back, back == "/" ? "To the robots" : "Back to the job"));
 }
 
 }  // namespace faultline

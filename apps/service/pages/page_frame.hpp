@@ -17,8 +17,9 @@ struct PageContext {
 /// without the script.
 std::string service_page(const PageContext& context, const std::string& title, const std::string& content);
 
-/// Returns a page about one message, such as why a request was refused.
-std::string message_page(const PageContext& context, const std::string& title, const std::string& sentence);
+/// Returns a page about one message, such as why a request was refused, with a link back to `back`.
+std::string message_page(const PageContext& context, const std::string& title, const std::string& sentence,
+                         const std::string& back);
 
 /// Content-Security-Policy of the pages: nothing but their own style and script, forms to this service only.
 std::string page_policy();

@@ -21,9 +21,9 @@ std::string drop_form(const PageContext& context, const std::vector<std::string>
 /// A table of jobs with state, result and time; `with_robot` adds a column.
 std::string job_table(const std::vector<Job>& jobs, bool with_robot);
 
-/// All robots and the latest jobs.
+/// All robots and the latest jobs. `without_cases` are files that look like models and have no case base.
 std::string home_page(const PageContext& context, const std::vector<ServedRobot>& robots,
-                      const std::vector<Job>& latest);
+                      const std::vector<std::string>& without_cases, const std::vector<Job>& latest);
 
 /// One robot: its runs, its condition over time (HTML, may be empty), two runs to compare.
 std::string robot_page(const PageContext& context, const ServedRobot& robot, const std::string& condition,

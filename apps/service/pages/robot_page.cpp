@@ -19,13 +19,16 @@ std::string run_choice(const char* id, const char* label, const std::vector<Job>
 }
 
 std::string compare_form(const PageContext& context, const ServedRobot& robot) {
-  if (robot.runs.size() < 2) return "";
-  std::vector<Job> rest(robot.runs.begin() + 1, robot.runs.end());
-  rest.push_back(robot.runs[0]);  // so that two runs are chosen first
+  std::vector<Job> runs;
+  for (const Job& run : robot.runs)
+    if (run.outcome.state == JobState::done) runs.push_back(run);
+  if (runs.size() < 2) return "";
+  std::vector<Job> rest(runs.begin() + 1, runs.end());
+  rest.push_back(runs[0]);  // so that two runs are chosen first
   return "<h2>Compare two runs</h2>\n<form class=\"case\" method=\"post\" action=\"/jobs\">\n" +
          hidden_field("key", context.form_key) + hidden_field("kind", "compare") +
          hidden_field("model", robot.model) + "<div class=\"row\">" + run_choice("first", "First", rest) +
-         run_choice("second", "Second", robot.runs) + "</div>\n<p><button>Compare</button></p>\n</form>\n";
+         run_choice("second", "Second", runs) + "</div>\n<p><button>Compare</button></p>\n</form>\n";
 }
 
 std::string page_links(const ServedRobot& robot, std::size_t page, std::size_t pages) {

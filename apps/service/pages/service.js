@@ -54,7 +54,8 @@ async function follow(element) {
     await new Promise(done => setTimeout(done, 300));
     let job;
     try {
-      const answer = await fetch(`${location.pathname}/state.json`);
+      const answer = await fetch(`${location.pathname}/state.json`, {redirect: 'manual'});
+      if (!answer.ok) { location.reload(); return; }   // deleted, or logged out
       job = await answer.json();
     } catch (error) {
       status.textContent = 'The service does not answer; this page tries again.';

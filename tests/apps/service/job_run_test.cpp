@@ -75,24 +75,52 @@ TEST_F(JobsOfAFolder, AModelIsPublishedOnceAndNeverOverAnother) {
   folder_.publish_model(learned, "new.model");  // as after a kill between the move and the outcome
   make();
   EXPECT_THROW(folder_.publish_model(learned, "bench.model"), Error);
+  write_file(files_.file("alone.model"), "another model");
+  EXPECT_THROW(folder_.publish_model(learned, "alone.model"), Error);
+  EXPECT_FALSE(fs::exists(files_.file("alone.model.cases.db"))) << "nothing is written beside it";
   EXPECT_EQ(read_file(files_.file("bench.model")), read_file(kSampleLogs + "golden/model-749d7413.json"));
 }
 
-TEST_F(JobsOfAFolder, JobsWithoutOutcomeRunWhenTheQueueStartsAndDamagedOnesAreLeftAlone) {
+TEST_F(JobsOfAFolder, JobsWithoutAReadableOutcomeRunWhenTheQueueStartsAndDamagedOnesCanBeRemoved) {
   new_job(1, "locked_1.csv");
   fs::create_directories(folder_.job_path(2));
   write_file(folder_.job_path(2) + "/request.json", "{");
   new_job(3, "healthy_1.csv");
+  write_file(folder_.job_path(3) + "/outcome.json", "");
   QueueLimits limits;
   limits.process = process_;
   {
     JobQueue queue(folder_, limits);
     while (!queue.find(1)->has_ended() || !queue.find(3)->has_ended()) std::this_thread::yield();
-    EXPECT_FALSE(queue.find(2));
+    EXPECT_EQ(queue.find(2)->state(), JobState::failed);
+    EXPECT_TRUE(queue.remove(2));
     EXPECT_EQ(queue.find(3)->outcome.verdict, "healthy");
   }
   EXPECT_EQ(read_job(folder_.job_path(1), 1).outcome.verdict, "faulty");
-  EXPECT_TRUE(fs::exists(folder_.job_path(2)));
+  EXPECT_FALSE(fs::exists(folder_.job_path(2)));
+}
+
+TEST_F(JobsOfAFolder, ANumberIsNotUsedTwice) {
+  new_job(1, "locked_1.csv");
+  folder_.remove_job(1);
+  EXPECT_EQ(folder_.last_used_id(), 1);
+  new_job(2, "locked_1.csv");
+  EXPECT_EQ(folder_.last_used_id(), 2);
+}
+
+TEST_F(JobsOfAFolder, AMomentThatIsNoneIsDamage) {
+  new_job(1, "locked_1.csv");
+  std::string request = read_file(folder_.job_path(1) + "/request.json");
+  request.replace(request.find("\"received_s\": 0"), 15, "\"received_s\": 1e300");
+  write_file(folder_.job_path(1) + "/request.json", request);
+  EXPECT_THROW(read_job(folder_.job_path(1), 1), Error);
+}
+
+TEST_F(JobsOfAFolder, AModelWithoutItsCaseBaseIsNamedAndItsNameIsTaken) {
+  write_file(files_.file("old.model"), "a model");
+  EXPECT_EQ(folder_.models_without_cases(), std::vector<std::string>{"old.model"});
+  EXPECT_FALSE(folder_.has_model("old.model"));
+  EXPECT_FALSE(folder_.is_free_name("old.model"));
 }
 
 TEST_F(JobsOfAFolder, AFullQueueIsRefused) {

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 // What strangers and foreign pages cannot do.
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <regex>
 
 #include "apps/service/access.hpp"
 #include "apps/service/form.hpp"
+#include "lib/core/atomic_file.hpp"
 #include "lib/core/hash.hpp"
+#include "tests/support/run_program.hpp"
 #include "tests/support/served_folder.hpp"
 
 namespace faultline {
@@ -16,7 +22,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Fields = std::vector<std::pair<std::string, std::string>>;
+/// A connection whose request never ends.
+class SlowConnection {
+ public:
+  explicit SlowConnection(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+      throw std::runtime_error("no connection");
+    constexpr std::string_view kBegin = "GET / HTTP/1.1\r\nHost: localhost\r\nX: ";
+    if (::send(socket_, kBegin.data(), kBegin.size(), 0) < 0) throw std::runtime_error("nothing sent");
+  }
+  SlowConnection(SlowConnection&& other) noexcept : socket_(other.socket_) { other.socket_ = -1; }
+  SlowConnection& operator=(SlowConnection&&) = delete;
+  ~SlowConnection() {
+    if (socket_ >= 0) ::close(socket_);
+  }
+
+ private:
+  int socket_;
+};
 
 bool is_empty_folder(const std::string& path) { return fs::is_empty(path); }
 
@@ -43,6 +70,23 @@ TEST(ServiceAccess, ForeignHostsAndOriginsAreRefused) {
   const ServiceAnswer answer = visitor.post("/jobs", {{"key", visitor.key()}, {"kind", "compare"}}, {},
                                             {{"Origin", "http://evil.example"}});
   EXPECT_EQ(answer.status, 403);
+}
+
+TEST(ServiceAccess, FortySlowConnectionsLeavePagesToOthers) {
+  const ServedFolder service;
+  std::vector<SlowConnection> slow;
+  for (int i = 0; i < 40; ++i) slow.emplace_back(service.port());
+  Visitor visitor(service);
+  EXPECT_EQ(visitor.get("/").status, 200);
+}
+
+TEST(ServiceAccess, ADamagedSecretIsRefused) {
+  ServedFolder service;
+  service.end(SIGKILL);
+  write_file(service.file("serve/secret"), "");
+  const ProgramRun run = run_program({"serve", service.file(""), "--port", "0"});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.err.find("is damaged; delete it"), std::string::npos) << run.err;
 }
 
 TEST(ServiceAccess, NoAddressLeadsToAnotherFile) {
@@ -146,7 +190,8 @@ TEST(ServiceAccess, OnlyNamesOfTheServiceAreHosts) {
   const Access access("secret", "", {"cell.example"});
   for (const char* host : {"localhost", "127.0.0.1:8080", "[::1]:8080", "192.168.0.7", "Cell.Example:80"})
     EXPECT_TRUE(access.is_own_host(host)) << host;
-  for (const char* host : {"", "evil.example", "127.0.0.1.evil.example", "localhost.evil.example", "[::1"})
+  for (const char* host : {"", "evil.example", "127.0.0.1.evil.example", "localhost.evil.example", "[::1",
+                           "[::1].evil.example", "127.0.0.1:80@evil.example", "127.0.0.1:abc", "999.1.1.1"})
     EXPECT_FALSE(access.is_own_host(host)) << host;
 }
 

@@ -165,6 +165,55 @@ TEST(Service, WhatWasAcknowledgedSurvivesKills) {
       << "the cookie is valid and no number is used twice";
 }
 
+TEST(Service, TheLastStatementAboutAnEventCounts) {
+  const ServedFolder service;
+  Visitor visitor(service);
+  const std::string one = visitor.diagnose("bench/locked_1.csv"),
+                    same = visitor.diagnose("bench/locked_1.csv");
+  for (const std::string& job : {one, same}) visitor.result_of(job);
+  const auto state = [&](const std::string& job, const char* by, const std::string& joint = "1") {
+    return visitor
+        .post(job + "/case",
+              {{"fault_id", "1"}, {"kind", "locked"}, {"joint", joint}, {"done", "x"}, {"by", by}})
+        .status;
+  };
+  EXPECT_EQ(state(one, "Weber"), 303);
+  EXPECT_EQ(state(same, "Maier"), 303);
+  const std::string page = visitor.get(one).body;
+  EXPECT_TRUE(has(page, "stated by Maier")) << page;
+  EXPECT_FALSE(has(page, "stated by Weber"));
+  EXPECT_EQ(state(one, "Weber", "two"), 422);
+  EXPECT_EQ(state(one, std::string(3000, 'a').c_str()), 422);
+}
+
+TEST(Service, ADamagedReportLeavesAPageThatDeletesTheJob) {
+  const ServedFolder service;
+  Visitor visitor(service);
+  visitor.result_of(visitor.diagnose("bench/locked_1.csv"));
+  write_file(service.file("serve/jobs/000001/report.json"), "{");
+  const ServiceAnswer page = visitor.get("/jobs/1");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_TRUE(has(page.body, "Delete this job")) << page.body;
+  EXPECT_EQ(visitor.get("/").status, 200);
+}
+
+TEST(Service, APortInUseIsRefused) {
+  const ServedFolder service;
+  const TemporaryFolder other;
+  const ProgramRun run =
+      run_program({"serve", other.path().string(), "--port", std::to_string(service.port())});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_TRUE(has(run.err, "cannot be used: another program may listen there")) << run.err;
+}
+
+TEST(Service, ARangeBeyondTheEndIsRefused) {
+  const ServedFolder service;
+  Visitor visitor(service);
+  visitor.result_of(visitor.diagnose("bench/locked_1.csv"));
+  EXPECT_EQ(visitor.get("/jobs/1/log", {{"Range", "bytes=99999999-"}}).status, 416);
+  EXPECT_EQ(visitor.get("/jobs/1/log", {{"Range", "bytes=0-9"}}).body.size(), 10u);
+}
+
 TEST(Service, ASecondServiceOnTheFolderIsRefused) {
   const ServedFolder service;
   const ProgramRun run = run_program({"serve", service.file(""), "--port", "0"});
