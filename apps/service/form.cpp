@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestStoredName = 150;  // bytes
-constexpr double kPatience_s = 20.0;             // before a rate counts
+constexpr double kUploadPatience_s = 20.0;       // before a rate counts
 constexpr double kLeastBytesPerS = 1000.0;       // of an upload
 constexpr const char* kUnreadable = "The form cannot be read; load the page again and repeat.";
 
@@ -124,7 +124,7 @@ class FormReader {
   bool is_fast_enough(std::size_t count) {
     received_ += static_cast<double>(count);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
-    return taken.count() < kPatience_s || received_ / taken.count() > kLeastBytesPerS ||
+    return taken.count() < kUploadPatience_s || received_ / taken.count() > kLeastBytesPerS ||
            refuse(408, "The upload was too slow and was ended; nothing of it was kept.");
   }
 
