@@ -12,7 +12,8 @@
 namespace faultline {
 namespace {
 
-constexpr const char* kWordsLink = "<p class=\"sub\"><a href=\"#words\">What these words mean</a></p>\n";
+constexpr const char* kWordsLink =
+    "<p class=\"sub\"><a class=\"words\" href=\"#words\">What these words mean</a></p>\n";
 constexpr std::size_t kShownFaults = 12;  // in the table, before it is scrolled
 
 std::string times(const FaultFinding& f, double period_s) {
