@@ -43,12 +43,12 @@ CoarseGuess approached(const CoarseLog& log, CoarseGuess guess, std::shared_ptr<
   return guess;
 }
 
-/// Returns the evidence of a judged guess from its onset on, against the healthy robot with the same effects
-/// of the day. Its own effects of the day are biased by the fault, so that rows before the fault would be
-/// evidence, too.
-EvidenceCourse course_of(const CoarseLog& log, const JudgedGuess& judged) {
+/// Returns the evidence of a judged guess from its onset on, against the healthy robot with the effects `day`
+/// of the day: those of the best guess, so that all courses have one reference. The healthy robot's own
+/// effects are biased by the fault, so that rows before the fault would be evidence, too.
+EvidenceCourse course_of(const CoarseLog& log, const JudgedGuess& judged, const VectorXd& day) {
   const CoarseExplanation &healthy = log.healthy, &fit = judged.fit;
-  const VectorXd bent = healthy.day_column * (fit.day - healthy.day),
+  const VectorXd bent = healthy.day_column * (day - healthy.day),
                  more = (healthy.left - bent).cwiseAbs2() - fit.left.cwiseAbs2();
   const Eigen::Map<const MatrixXd> by_sample(more.data(), fit.log_ratio.rows(), fit.log_ratio.cols());
   const MatrixXd gain = 0.5 * (by_sample - fit.log_ratio);
@@ -63,7 +63,7 @@ EvidenceCourse course_of(const CoarseLog& log, const JudgedGuess& judged) {
   return out;
 }
 
-FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
+FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged, const VectorXd& day) {
   FaultHypothesis out;
   out.kind = judged.kind;
   out.joint = judged.guess.joint;
@@ -77,7 +77,7 @@ FaultHypothesis hypothesis_of(const CoarseLog& log, const JudgedGuess& judged) {
   out.gain = judged.gain;
   out.size = judged.fit.size;
   out.fit = judged.fit;
-  out.course = course_of(log, judged);
+  out.course = course_of(log, judged, day);
   const double left = out.fit.mean_square();
   if (left > kLargeResidual && left - 1.0 > kUnexplained * (log.healthy.mean_square() - 1.0))
     out.misfit = std::numeric_limits<double>::infinity();
@@ -168,7 +168,8 @@ double CoarseBench::best_gain() const {
 
 LogExplanation CoarseBench::explanation() const {
   LogExplanation out;
-  for (const JudgedGuess& j : best) out.best.push_back(hypothesis_of(log, j));
+  const auto winner = std::ranges::max_element(best, {}, &JudgedGuess::gain);
+  for (const JudgedGuess& j : best) out.best.push_back(hypothesis_of(log, j, winner->fit.day));
   std::ranges::stable_sort(out.best, std::ranges::greater{}, &FaultHypothesis::gain);
   out.healthy_square = log.healthy.mean_square();
   return out;
