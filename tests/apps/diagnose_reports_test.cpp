@@ -39,7 +39,7 @@ TEST_F(DiagnoseReports, PageAndMarkdownAreWrittenAndAreTheSameEachTime) {
   const std::string first = folder_.file("a.html"), second = folder_.file("b.html");
   const ProgramRun run = diagnose({"--html", first, "--md", "-"});
   EXPECT_EQ(run.status, 1) << run.err;
-  EXPECT_EQ(run.out.rfind("## run.csv", 0), 0u) << run.out;
+  EXPECT_EQ(run.out.rfind("## 1 fault: joint 1 is locked", 0), 0u) << run.out;
   EXPECT_EQ(diagnose({"--html", second}).status, 1);
   const std::string page = read_file(first);
   EXPECT_TRUE(page == read_file(second));
