@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Uploads, kills and times of faultline serve. Usage: serve.py PROGRAM MODEL LOG LONG_LOG UPLOADS KILLS"""
+"""Uploads, kills and times of faultline serve. Usage: serve.py PROGRAM MODEL LOG UPLOADS KILLS LONG_LOG..."""
 import http.client
 import os
 import random
@@ -13,7 +13,7 @@ import tempfile
 import threading
 import time
 
-PROGRAM, MODEL, LOG, LONG_LOG, UPLOADS, KILLS = *sys.argv[1:5], int(sys.argv[5]), int(sys.argv[6])
+PROGRAM, MODEL, LOG, UPLOADS, KILLS, LONG_LOGS = *sys.argv[1:4], int(sys.argv[4]), int(sys.argv[5]), sys.argv[6:]
 BOUNDARY = "faultline-bench"
 
 
@@ -119,16 +119,16 @@ def times(service):
         assert visitor.ask("GET", path)[0] == 200
         taken.append(1000 * (time.perf_counter() - begin))
     print(f"a page: median {statistics.median(taken):.1f} ms, slowest of {len(taken)} {max(taken):.1f} ms")
-    with open(LONG_LOG, "rb") as file:
-        long_log = file.read()
-    rows = long_log.count(b"\n") - 1
-    taken = []
-    for i in range(5):
-        begin = time.perf_counter()
-        job = visitor.upload(f"long_{i}.csv", long_log)
-        visitor.result(job)
-        taken.append(time.perf_counter() - begin)
-    print(f"upload, diagnosis and report of {rows} rows: median {statistics.median(taken):.2f} s, slowest of 5 {max(taken):.2f} s")
+    for path in LONG_LOGS:
+        with open(path, "rb") as file:
+            log = file.read()
+        name, rows, taken = os.path.basename(path), log.count(b"\n") - 1, []
+        for i in range(5):
+            begin = time.perf_counter()
+            visitor.result(visitor.upload(f"{i}_{name}", log))
+            taken.append(time.perf_counter() - begin)
+        print(f"upload, diagnosis and report of {rows} rows, {name}: median {statistics.median(taken):.2f} s, "
+              f"slowest of 5 {max(taken):.2f} s")
 
 
 def main():
