@@ -24,7 +24,7 @@ constexpr std::size_t kLatestJobs = 20;                         // on the first 
 constexpr std::size_t kMostShownBytes = std::size_t{64} << 20;  // of a file that a page quotes
 constexpr const char* kNotThere = "This page is not there; the job may have been deleted.";
 
-/// A file of a job that can be fetched.
+/// A result in the folder of a job that a browser may fetch.
 struct JobFile {
   const char* name;
   const char* type;
