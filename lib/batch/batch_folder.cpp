@@ -58,6 +58,28 @@ void BatchFolder::write(const std::string& name, std::string_view bytes) const {
   write_inner_file(path_, name, bytes);
 }
 
+void BatchFolder::write_unsynced(const std::string& name, std::string_view bytes) const {
+  const std::string path = file(name);
+  prepare_inner_file(path_, name);
+  ::unlink(path.c_str());  // other names of a hard link keep their content
+  const int out = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  bool is_whole = out >= 0;
+  while (is_whole && !bytes.empty()) {
+    const ssize_t written = ::write(out, bytes.data(), bytes.size());
+    is_whole = written > 0 || (written < 0 && errno == EINTR);
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (!is_whole) fail_to_write(path, "written");
+  ::close(out);
+}
+
+void BatchFolder::sync() const {
+  const int folder = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool is_done = folder >= 0 && ::syncfs(folder) == 0;
+  ::close(folder);
+  if (!is_done) fail_to_write(path_, "brought to the disk");
+}
+
 bool is_batch_folder(const std::string& folder) {
   std::error_code error;
   return fs::is_directory(folder + "/.batch", error);
@@ -78,8 +100,8 @@ BatchFolder::~BatchFolder() { ::close(lock_); }
 
 void BatchFolder::refuse_foreign_places() const {
   for (const char* folder : {".batch", "logs"}) has_inner_folder(path_, folder);
-  for (const char* name : {".batch/lock", ".batch/journal", ".batch/finished.json", "index.csv",
-                           "index.ndjson", "index.html", "summary.json", "faultline_mqc.json"})
+  for (const char* name : {".batch/lock", ".batch/journal", ".batch/known_logs", ".batch/finished.json",
+                           "index.csv", "index.ndjson", "index.html", "summary.json", "faultline_mqc.json"})
     has_inner_file(path_, name);
 }
 

@@ -28,7 +28,11 @@ class BatchFolder {
   bool has(const std::string& name) const;
   std::string read(const std::string& name) const;
   void write(const std::string& name, std::string_view bytes) const;
+  /// The same for one of many files, which sync() brings to the disk at once: a kill can leave it half written.
+  void write_unsynced(const std::string& name, std::string_view bytes) const;
+  void sync() const;
   std::string journal() const { return file(".batch/journal"); }
+  std::string known_logs() const { return file(".batch/known_logs"); }
   std::string finished() const { return file(".batch/finished.json"); }
   /// To be done before anything in it changes: what is there is no finished batch any more.
   void mark_unfinished() const;

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -95,20 +96,24 @@ void BatchIndex::put(int place, JournalEntry entry) {
 BatchSummary BatchIndex::finish(const BatchFacts& facts) {
   ndjson_.finish();
   csv_.finish();
-  std::vector<BatchRow> rows;
-  std::string journal = "\n";
-  bool pages = false;
-  for (const JournalEntry& entry : entries_) {
-    rows.push_back(entry.row);
-    journal += to_journal_line(entry);
-    pages = pages || !entry.html_sha.empty();
+  const std::set<std::string> results = result_names(entries_);
+  const bool pages = std::any_of(entries_.begin(), entries_.end(),
+                                 [](const JournalEntry& entry) { return !entry.html_sha.empty(); });
+  AtomicFile journal(folder_.journal());
+  journal.write("\n");
+  std::vector<BatchRow> rows;  // in the place of the entries: a batch may have a hundred thousand
+  rows.reserve(entries_.size());
+  for (JournalEntry& entry : entries_) {
+    journal.write(to_journal_line(entry));
+    rows.push_back(std::move(entry.row));
   }
+  entries_.clear();
   const BatchSummary summary = summary_of(rows, facts);
   write_file(folder_.file("summary.json"), to_json(summary));
   write_file(folder_.file("index.html"), render_index_page(rows, summary, pages));
   write_file(folder_.file("faultline_mqc.json"), batch_multiqc(rows));
-  write_file(folder_.journal(), journal);
-  folder_.clean(result_names(entries_));
+  journal.commit();
+  folder_.clean(results);
   write_file(folder_.finished(), facts_to_json(facts));
   return summary;
 }

@@ -48,7 +48,8 @@ class BatchIndex {
 
   /// Takes result `place` (0 to results-1), each once.
   void put(int place, JournalEntry entry);
-  /// Writes summary.json, index.html and the final journal, and removes what is no result of this batch.
+  /// Writes summary.json, index.html and the final journal, and removes what is no result of this batch. To
+  /// be called once, when all results are there.
   BatchSummary finish(const BatchFacts& facts);
 
  private:

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "lib/batch/journal.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 
-#include "lib/core/atomic_file.hpp"
+#include "lib/core/error.hpp"
 #include "lib/core/files/inner_file.hpp"
-#include "lib/core/files/output_place.hpp"
 #include "lib/core/hash.hpp"
 #include "lib/core/json/json_fields.hpp"
 
@@ -73,7 +67,8 @@ std::string to_journal_line(const JournalEntry& entry) {
 std::vector<JournalEntry> read_journal_in_order(const std::string& path) {
   std::vector<JournalEntry> entries;
   if (!std::filesystem::exists(path)) return entries;
-  std::istringstream lines(read_file(path));
+  std::ifstream lines(path, std::ios::binary);
+  if (!lines) throw Error(ErrorCode::input, path, "cannot be opened; check its permissions");
   for (std::string line; std::getline(lines, line);)
     if (auto entry = entry_from(line)) {
       refuse_names(*entry, path);
@@ -87,27 +82,6 @@ std::map<std::string, JournalEntry> read_journal(const std::string& path) {
   for (JournalEntry& entry : read_journal_in_order(path))
     if (!entry.key.empty()) entries[entry.key] = std::move(entry);
   return entries;
-}
-
-JournalWriter::JournalWriter(std::string path) : path_(std::move(path)) {
-  refuse_other_names(path_);
-  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (file_ < 0)
-    throw Error(ErrorCode::output, path_, std::string("cannot be opened (") + std::strerror(errno) + ")");
-  write("\n");  // ends a line that a kill has cut
-}
-
-JournalWriter::~JournalWriter() { ::close(file_); }
-
-void JournalWriter::add(const JournalEntry& entry) { write(to_journal_line(entry)); }
-
-void JournalWriter::write(const std::string& line) {
-  const auto written = ::write(file_, line.data(), line.size());
-  if (written == static_cast<ssize_t>(line.size())) return;
-  const std::string why = written < 0 ? std::strerror(errno) : "no space left";
-  throw Error(
-      ErrorCode::output, path_,
-      "cannot be written (" + why + "); finished logs are kept: make room and run the same command again");
 }
 
 }  // namespace faultline

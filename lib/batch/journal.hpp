@@ -26,21 +26,4 @@ std::map<std::string, JournalEntry> read_journal(const std::string& path);
 std::vector<JournalEntry> read_journal_in_order(const std::string& path);
 std::string to_journal_line(const JournalEntry& entry);
 
-/// Adds lines at the end of the journal, each by one write.
-class JournalWriter {
- public:
-  /// Throws Error(output).
-  explicit JournalWriter(std::string path);
-  ~JournalWriter();
-  JournalWriter(const JournalWriter&) = delete;
-  JournalWriter& operator=(const JournalWriter&) = delete;
-  void add(const JournalEntry& entry);
-
- private:
-  void write(const std::string& line);
-
-  std::string path_;
-  int file_ = -1;
-};
-
 }  // namespace faultline

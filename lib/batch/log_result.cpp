@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <utility>
 
 #include "lib/core/hash.hpp"
 #include "lib/core/text.hpp"
@@ -41,11 +42,7 @@ std::vector<ParameterValue> parameters_in(LogSource& log, const Robot& robot) {
 }
 
 /// Returns the hash of all files of the log.
-std::string sha256_of_log(const BatchLog& log) {
-  std::vector<std::string> paths{log.path};
-  paths.insert(paths.end(), log.beside.begin(), log.beside.end());
-  return sha256_of_files(paths);
-}
+std::string sha256_of_log(const BatchLog& log) { return sha256_of_files(files_of(log)); }
 
 /// Reads the file a second time only when it was written to meanwhile and may have the same content.
 void refuse_changed(const BatchLog& log, const FileStamp& before, const std::string& sha256_read) {
@@ -58,6 +55,14 @@ bool is_file_with(const BatchFolder& folder, const std::string& name, const std:
   return sha256.empty() || (folder.has(name) && sha256_of_file(folder.file(name)) == sha256);
 }
 
+std::vector<FileStamp> result_stamps(const JournalEntry& entry, const BatchFolder& folder) {
+  std::vector<std::string> paths;
+  for (const auto& [sha256, ending] :
+       {std::pair(&entry.json_sha, ".json"), std::pair(&entry.html_sha, ".html")})
+    if (!sha256->empty()) paths.push_back(folder.file("logs/" + entry.row.result + ending));
+  return stamps_of(paths);
+}
+
 bool is_intact(const JournalEntry& entry, const BatchFolder& folder) {
   const std::string stem = "logs/" + entry.row.result;
   return is_file_with(folder, stem + ".json", entry.json_sha) &&
@@ -66,9 +71,10 @@ bool is_intact(const JournalEntry& entry, const BatchFolder& folder) {
 
 }  // namespace
 
-FileStamp stamp_of(const std::string& path) {
-  std::error_code error;  // then both values are such as no file has
-  return {std::filesystem::file_size(path, error), std::filesystem::last_write_time(path, error)};
+std::vector<std::string> files_of(const BatchLog& log) {
+  std::vector<std::string> paths{log.path};
+  paths.insert(paths.end(), log.beside.begin(), log.beside.end());
+  return paths;
 }
 
 std::string result_name(const std::string& log_name, const std::string& log_sha256) {
@@ -135,10 +141,28 @@ EarlierResults::EarlierResults(const BatchFolder& folder)
   for (const auto& [key, entry] : entries_) logs_.insert(entry.row.log);
 }
 
-const JournalEntry* EarlierResults::find(const BatchLog& log, const std::string& settings) const {
+const JournalEntry* EarlierResults::find(const BatchLog& log, const std::string& settings,
+                                         KnownLogs& known) const {
   if (!logs_.count(valid_utf8(log.name))) return nullptr;
-  const auto found = entries_.find(result_key(settings, log, sha256_of_log(log)));
-  return found != entries_.end() && is_intact(found->second, folder_) ? &found->second : nullptr;
+  const std::vector<FileStamp> stamps = stamps_of(files_of(log));
+  const KnownLog* before = known.find(valid_utf8(log.name));
+  if (before && before->files != stamps) before = nullptr;
+  const auto found = entries_.find(result_key(settings, log, before ? before->sha256 : sha256_of_log(log)));
+  if (found == entries_.end()) return nullptr;
+  const JournalEntry& entry = found->second;
+  if (before && before->results == result_stamps(entry, folder_)) {
+    known.keep(before->log);
+    return &entry;
+  }
+  if (!is_intact(entry, folder_)) return nullptr;
+  note_result(log, stamps, entry, folder_, known);
+  return &entry;
+}
+
+void note_result(const BatchLog& log, const std::vector<FileStamp>& stamps, const JournalEntry& entry,
+                 const BatchFolder& folder, KnownLogs& known) {
+  if (!entry.key.empty())
+    known.note({valid_utf8(log.name), entry.row.sha256, stamps, result_stamps(entry, folder)});
 }
 
 }  // namespace faultline

@@ -1,29 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
 
 #include "lib/batch/batch_folder.hpp"
+#include "lib/batch/file_stamp.hpp"
 #include "lib/batch/find_logs.hpp"
 #include "lib/batch/journal.hpp"
+#include "lib/batch/known_logs.hpp"
 #include "lib/batch/run_batch.hpp"
 
 namespace faultline {
-
-/// Size and time of a file: a change of either shows, without reading, that the file was written to.
-struct FileStamp {
-  std::uintmax_t bytes = 0;
-  std::filesystem::file_time_type written{};
-
-  bool operator==(const FileStamp&) const = default;
-};
-
-/// Of a file that is not there: one that no file has.
-FileStamp stamp_of(const std::string& path);
 
 /// The name in logs/ of the result of a log of this name and content: readable, without what a file name
 /// should not hold, and different for different names or contents.
@@ -59,13 +48,22 @@ class EarlierResults {
 
   /// `settings`: settings_of() this run and the log's model. The entry of the log as it is now, when its
   /// result files are there as they were written; null else. The log is read, for its hash, only when one of
-  /// its name was done. Throws Error(input) when it cannot be.
-  const JournalEntry* find(const BatchLog& log, const std::string& settings) const;
+  /// its name was done and its files are not those that `known` describes; so are its result files. Throws
+  /// Error(input) when it cannot be.
+  const JournalEntry* find(const BatchLog& log, const std::string& settings, KnownLogs& known) const;
 
  private:
   const BatchFolder& folder_;
   std::map<std::string, JournalEntry> entries_;  ///< by key
   std::set<std::string> logs_;                   ///< names
 };
+
+/// Notes that the files of the log, with these stamps, have the content of this entry, and that its results
+/// are as they are now.
+void note_result(const BatchLog& log, const std::vector<FileStamp>& stamps, const JournalEntry& entry,
+                 const BatchFolder& folder, KnownLogs& known);
+
+/// Paths of all files of the log.
+std::vector<std::string> files_of(const BatchLog& log);
 
 }  // namespace faultline

@@ -55,7 +55,10 @@ std::vector<ModelFacts> used(const std::vector<ModelFacts>& models, const std::v
 class Batch {
  public:
   explicit Batch(const BatchSetup& setup)
-      : setup_(setup), before_(setup.folder), journal_(setup.folder.journal()) {}
+      : setup_(setup),
+        before_(setup.folder),
+        journal_(setup.folder.journal()),
+        known_(setup.folder.known_logs()) {}
 
   BatchResult run(const std::vector<BatchLog>& logs, const BatchFacts& facts) {
     std::vector<int> positions;
@@ -77,6 +80,7 @@ class Batch {
         throw;
       }
     });
+    known_.finish();
     return {index.finish(facts), progress_.diagnosed};
   }
 
@@ -84,14 +88,14 @@ class Batch {
   JournalEntry entry_of(const BatchLog& log, int position) {
     const auto which = static_cast<std::size_t>(log.model);
     const std::string& settings = setup_.settings[which];
-    const FileStamp before = stamp_of(log.path);
+    const std::vector<FileStamp> before = stamps_of(files_of(log));
     JournalEntry entry;
     const auto take_unusable = [&](const Error& error) {
-      entry = unusable_result(log, before, error, setup_.facts[which], settings);
+      entry = unusable_result(log, before.front(), error, setup_.facts[which], settings);
     };
     try {
       refuse_special_file(log.path);
-      if (const JournalEntry* done = before_.find(log, settings)) {
+      if (const JournalEntry* done = before_.find(log, settings, known_)) {
         entry = *done;
         entry.position = position;
         return entry;
@@ -109,13 +113,15 @@ class Batch {
     entry.position = position;
     const std::lock_guard lock(mutex_);
     ++progress_.diagnosed;
-    if (!entry.key.empty()) journal_.add(entry);
+    if (!entry.key.empty()) journal_.add(to_journal_line(entry));
+    note_result(log, before, entry, setup_.folder, known_);
     return entry;
   }
 
   const BatchSetup& setup_;
   EarlierResults before_;
-  JournalWriter journal_;
+  AppendedLines journal_;
+  KnownLogs known_;
   std::mutex mutex_;
   BatchProgress progress_;
 };
@@ -155,7 +161,7 @@ void copy(const std::string& name, const BatchFolder& from, const BatchFolder& t
   if (sha256_hex(bytes) != sha256)
     throw Error(ErrorCode::input, from.file(name),
                 "was changed after the batch wrote it; run its batch again");
-  to.write(name, bytes);
+  to.write_unsynced(name, bytes);
 }
 
 void copy_results(const JournalEntry& entry, const BatchFolder& from, const BatchFolder& to) {
@@ -198,6 +204,7 @@ BatchResult run_batch(const std::vector<BatchLog>& logs, const OpenLog& open,
   facts.shards = options.shards;
   const BatchFolder out(folder, options.wait);
   refuse_other_names(out.journal());
+  refuse_other_names(out.known_logs());
   out.mark_unfinished();
   std::vector<std::string> settings;
   for (const ModelFacts& model : all) settings.push_back(settings_of(facts, model));
@@ -230,6 +237,7 @@ BatchSummary merge_batches(const std::vector<std::string>& folders, const std::s
     copy_results(entry, *places[position], out);
     index.put(position, std::move(entry));
   }
+  out.sync();
   return index.finish(facts);
 }
 

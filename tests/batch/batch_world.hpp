@@ -57,11 +57,11 @@ class BatchWorld {
   TemporaryFolder folder_;
 };
 
-/// The bytes of all files below a folder, by name.
+/// The bytes of all files below a folder, by name; without what a batch notes for this machine alone.
 inline std::map<std::string, std::string> bytes_below(const std::string& folder) {
   std::map<std::string, std::string> all;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
+    if (entry.is_regular_file() && entry.path().filename() != "known_logs")
       all[std::filesystem::relative(entry.path(), folder).string()] = read_file(entry.path().string());
   return all;
 }

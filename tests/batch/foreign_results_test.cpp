@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "lib/batch/appended_lines.hpp"
 #include "lib/batch/batch_index.hpp"
 #include "lib/batch/run_batch.hpp"
 #include "lib/core/atomic_file.hpp"
@@ -164,7 +165,7 @@ TEST_F(ForeignResults, AJournalThatIsAHardLinkIsNotAppendedTo) {
   merge_batches({part()}, out());
   link_mine(settings(), out() + "/.batch/journal");
   try {
-    JournalWriter(out() + "/.batch/journal").add(entry_);
+    AppendedLines(out() + "/.batch/journal").add(to_journal_line(entry_));
     ADD_FAILURE() << "the journal was opened";
   } catch (const Error& error) {
     EXPECT_NE(error.message().find("hard link"), std::string::npos) << error.what();

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "lib/batch/appended_lines.hpp"
 #include "lib/batch/batch_index.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -28,9 +29,9 @@ JournalEntry entry(const std::string& key, int position) {
 TEST(Journal, EntriesAreReadBackUnchanged) {
   const TemporaryFolder folder;
   {
-    JournalWriter journal(folder.file("journal"));
-    journal.add(entry("a", 0));
-    journal.add(entry("b", 1));
+    AppendedLines journal(folder.file("journal"));
+    journal.add(to_journal_line(entry("a", 0)));
+    journal.add(to_journal_line(entry("b", 1)));
   }
   const auto read = read_journal(folder.file("journal"));
   ASSERT_EQ(read.size(), 2u);
@@ -43,7 +44,7 @@ TEST(Journal, ACutLineIsIgnoredAndAffectsNoOtherLine) {
   const std::string first = to_journal_line(entry("a", 0)), second = to_journal_line(entry("b", 1));
   for (std::size_t cut = 0; cut + 1 < second.size(); cut += 7) {
     const std::string path = folder.write("journal", "\n" + first + second.substr(0, cut));
-    JournalWriter(path).add(entry("c", 2));
+    AppendedLines(path).add(to_journal_line(entry("c", 2)));
     const auto read = read_journal(path);
     EXPECT_EQ(read.count("a"), 1u) << cut;
     EXPECT_EQ(read.count("b"), 0u) << cut;

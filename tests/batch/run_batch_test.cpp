@@ -6,6 +6,8 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
 
 #include "formats/open_log.hpp"
 #include "lib/batch/log_result.hpp"
@@ -107,6 +109,12 @@ TEST_F(RunBatch, ALogThatFailedByADefectIsDiagnosedAgain) {
   EXPECT_NE(index("out").find(sha256_of_file(logs_[0].path)), std::string::npos);
 }
 
+nlohmann::json stamps(const std::vector<FileStamp>& all) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const FileStamp& one : all) json.push_back({one.bytes, one.written_ns, one.changed_ns, one.number});
+  return json;
+}
+
 TEST(UnusableResult, HasAKeyOnlyIfTheFileIsUnchangedSinceItWasRead) {
   const TemporaryFolder folder;
   const BatchLog log{folder.write("a.csv", "x"), "runs/a.csv", 0};
@@ -124,23 +132,70 @@ TEST(UnusableResult, HasAKeyOnlyIfTheFileIsUnchangedSinceItWasRead) {
   EXPECT_EQ(gone.row.reason, "is no log");
 }
 
-TEST(EarlierResults, AreUsedOnlyIfTheirFilesAreUnchanged) {
-  const TemporaryFolder folder;
-  const BatchFolder out(folder.file("out"), false);
-  const BatchLog log{folder.write("a.csv", "x"), "runs/a.csv", 0};
-  JournalEntry entry;
-  entry.key = result_key("s", log, sha256_hex("x"));
-  entry.row.log = log.name;
-  entry.row.result = "a";
-  entry.json_sha = sha256_hex("{}");
-  write_file(out.file("logs/a.json"), "{}");
-  JournalWriter(out.journal()).add(entry);
-  EXPECT_NE(EarlierResults(out).find(log, "s"), nullptr);
-  EXPECT_EQ(EarlierResults(out).find(log, "t"), nullptr);
-  EXPECT_EQ(EarlierResults(out).find({log.path, "runs/b.csv", 0}, "s"), nullptr);
-  EXPECT_EQ(EarlierResults(out).find({"/not/there", "runs/b.csv", 0}, "s"), nullptr) << "was read in vain";
-  write_file(out.file("logs/a.json"), "{ }");
-  EXPECT_EQ(EarlierResults(out).find(log, "s"), nullptr);
+/// A folder with the result of one log.
+class WithEarlierResult : public testing::Test {
+ protected:
+  WithEarlierResult() {
+    entry_.key = result_key("s", log_, sha256_hex("x"));
+    entry_.row.log = log_.name;
+    entry_.row.sha256 = sha256_hex("x");
+    entry_.row.result = "a";
+    entry_.json_sha = sha256_hex("{}");
+    write_file(out_.file("logs/a.json"), "{}");
+    AppendedLines(out_.journal()).add(to_journal_line(entry_));
+  }
+
+  /// What a new run into the folder finds.
+  bool finds(const BatchLog& log, const std::string& settings = "s") {
+    KnownLogs known(out_.known_logs());
+    return EarlierResults(out_).find(log, settings, known) != nullptr;
+  }
+
+  TemporaryFolder folder_;
+  BatchFolder out_{folder_.file("out"), false};
+  BatchLog log_{folder_.write("a.csv", "x"), "runs/a.csv", 0};
+  JournalEntry entry_;
+};
+
+TEST_F(WithEarlierResult, ItIsUsedOnlyIfItsFilesAreUnchanged) {
+  EXPECT_TRUE(finds(log_));
+  EXPECT_FALSE(finds(log_, "t"));
+  EXPECT_FALSE(finds({log_.path, "runs/b.csv", 0}));
+  EXPECT_FALSE(finds({"/not/there", "runs/b.csv", 0})) << "was read in vain";
+  write_file(out_.file("logs/a.json"), "{ }");
+  EXPECT_FALSE(finds(log_));
+}
+
+/// The note says of this state of the file that its content was "x", so the "y" in it shows whether it is
+/// read.
+TEST_F(WithEarlierResult, ALogWhoseFileIsUnchangedIsNotReadAgain) {
+  folder_.write("a.csv", "y");
+  const std::vector<FileStamp> log{stamp_of(log_.path)}, result{stamp_of(out_.file("logs/a.json"))};
+  const auto note = [&](const KnownLog& known) {
+    const nlohmann::json line{known.log, known.sha256, stamps(known.files), stamps(known.results)};
+    write_file(out_.known_logs(), line.dump() + "\n");
+  };
+  EXPECT_FALSE(finds(log_)) << "without a note";
+  note({log_.name, sha256_hex("x"), log, result});
+  EXPECT_TRUE(finds(log_));
+  FileStamp other = log.front();
+  ++other.changed_ns;
+  note({log_.name, sha256_hex("x"), {other}, result});
+  EXPECT_FALSE(finds(log_)) << "the log has changed since";
+  write_file(out_.file("logs/a.json"), "{ }");
+  note({log_.name, sha256_hex("x"), log, result});
+  EXPECT_FALSE(finds(log_)) << "the result has changed since";
+}
+
+TEST_F(WithEarlierResult, TheRunNotesASettledLogForTheNextOne) {
+  while (!are_settled({stamp_of(log_.path)})) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  KnownLogs known(out_.known_logs());
+  EXPECT_NE(EarlierResults(out_).find(log_, "s", known), nullptr);
+  const KnownLogs next(out_.known_logs());
+  ASSERT_NE(next.find(log_.name), nullptr);
+  EXPECT_EQ(next.find(log_.name)->sha256, sha256_hex("x"));
+  EXPECT_EQ(next.find(log_.name)->files.front(), stamp_of(log_.path));
+  EXPECT_EQ(next.find(log_.name)->results.front(), stamp_of(out_.file("logs/a.json")));
 }
 
 TEST(ResultName, IsReadableAndDiffersByNameAndContent) {

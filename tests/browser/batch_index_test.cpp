@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "lib/batch/page/index_page.hpp"
+#include "lib/report/html/elements.hpp"
 #include "tests/support/chromium.hpp"
 #include "tests/support/skip_unless_installed.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -50,6 +51,7 @@ class OpenIndex {
                      const std::string& state = "")
       : page(options) {
     page.open(folder_.write("index.html", page_of(all)) + state);
+    if (options.script) page.evaluate("Promise.resolve(faultlineIndex.whole).then(() => true)");
   }
 
   void set(const char* id, const char* value) {
@@ -258,6 +260,56 @@ TEST(BatchIndexInChromium, TenThousandLogsOpenFilterAndScrollAndHostileNamesStay
   EXPECT_NE(index.page.evaluate("document.title"), "taken");
   EXPECT_EQ(index.page.complaints(), std::vector<std::string>{});
   EXPECT_EQ(index.page.requests().size(), 1u);
+}
+
+TEST(BatchIndexInChromium, RowsOfLaterPartsAreFilteredSortedAndShownInTheTrends) {
+  NEEDS_CHROMIUM;
+  auto all = rows(9001);  // the first rows, and three packed parts
+  all[8999].residual_rms = {50.0, 1.0, 1.0};
+  all[8999].verdict = "healthy";
+  all[8999].result = "last";
+  OpenIndex index(all, {}, "#sort=-residual");
+  EXPECT_EQ(index.shown(), 9001);
+  EXPECT_EQ(index.first("residual"), "50");
+  EXPECT_EQ(index.first("no"), "9000");
+  index.set("text", "run_8999");
+  EXPECT_EQ(index.shown(), 1);
+  index.set("text", "");
+  EXPECT_EQ(index.range(), "0.5 8102.5") << "nine of ten logs are judged, and the last one, too";
+  EXPECT_EQ(index.page.evaluate("document.querySelectorAll('script.part').length"), 0);
+}
+
+/// What the page states of its rows once it has taken all that it can.
+std::string shown_by(const std::string& page_text) {
+  const TemporaryFolder folder;
+  BrowserPage page;
+  page.open(folder.write("index.html", page_text));
+  page.evaluate("Promise.resolve(faultlineIndex.whole).then(() => true)");
+  EXPECT_EQ(page.complaints(), std::vector<std::string>{});
+  return page.evaluate("document.getElementById('shown').textContent");
+}
+
+TEST(BatchIndexInChromium, APageThatWasCutOffShowsTheRowsItHasAndStatesThatSomeAreMissing) {
+  NEEDS_CHROMIUM;
+  const std::string text = page_of(rows(9000)), part = "<script type=\"text/plain\" class=\"part\">";
+  const std::size_t second = text.find(part, text.find(part) + 1);
+  EXPECT_EQ(shown_by(text.substr(0, second)),
+            "4500 of the first 4500 of 9000 logs; the others are missing in this file: copy it again");
+}
+
+TEST(BatchIndexInChromium, ABrowserThatCannotUnpackShowsTheFirstRows) {
+  NEEDS_CHROMIUM;
+  std::string text = page_of(rows(1000));
+  const std::string script(index_script());
+  const std::string other = "window.DecompressionStream = undefined;\n" + script;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace(source_hash(script), source_hash(other));
+  replace("<script>" + script, "<script>" + other);
+  const std::string shown = shown_by(text);
+  EXPECT_TRUE(shown.starts_with("500 of the first 500 of 1000 logs; this browser cannot unpack the others"))
+      << shown;
 }
 
 /// What the figures are, from the Web Content Accessibility Guidelines.

@@ -42,8 +42,8 @@ std::string fault_bars(const FaultEvent& fault, const Scale& scale, int y) {
 constexpr std::size_t kLongestName = 200;
 constexpr int kNamedModels = 3;  // in a title
 
+constexpr std::size_t kShownFolders = 200;  // a table of more makes the page slow
 constexpr std::size_t kLongestDoubt = 400;  // bytes of a sentence about the model
-constexpr std::size_t kStillRows = 500;     // without script; more would cost those who have one
 
 /// "model bench", safe in markup.
 std::string models_text(const BatchFacts& facts) {
@@ -104,11 +104,22 @@ HtmlRow counts_head(const char* what) {
           "faults", "hours", "faults per hour", "median residual", "largest"};
 }
 
+/// Of many folders those with the largest residuals, in the order of their names.
 std::string folder_table(const BatchSummary& summary) {
+  std::vector<double> largest;
+  for (const auto& [folder, counts] : summary.folders) largest.push_back(counts.largest_residual);
+  const bool is_long = largest.size() > kShownFolders;
+  std::sort(largest.begin(), largest.end(), [](double a, double b) { return a > b || std::isnan(b); });
+  const double least = is_long ? largest[kShownFolders - 1] : 0.0;
   std::vector<HtmlRow> rows;
   for (const auto& [folder, counts] : summary.folders)
-    rows.push_back(counts_row(folder.empty() ? "(given files)" : folder, counts));
-  return "<h2>By folder</h2>\n" + scrolling("Counts by folder", html_table(counts_head("folder"), rows));
+    if (!is_long || (counts.largest_residual >= least && rows.size() < kShownFolders))
+      rows.push_back(counts_row(folder.empty() ? "(given files)" : folder, counts));
+  std::string text = "<h2>By folder</h2>\n";
+  if (is_long)
+    text += fmt::format("<p>The {} of {} folders with the largest residuals; summary.json has all.</p>\n",
+                        rows.size(), largest.size());
+  return text + scrolling("Counts by folder", html_table(counts_head("folder"), rows));
 }
 
 /// Only where there are several models.
@@ -240,7 +251,7 @@ std::string index_table(const std::vector<BatchRow>& rows, bool pages) {
       "scope=\"col\">faults</th><th class=\"c5\" scope=\"col\">timeline</th><th class=\"c6\" "
       "scope=\"col\">residual</th><th class=\"c7\" scope=\"col\">length, s</th><th class=\"c8\" "
       "scope=\"col\">issues</th></tr></thead>\n<tbody>\n";
-  const std::size_t count = std::min(rows.size(), kStillRows);
+  const std::size_t count = std::min(rows.size(), kIndexFirstRows);
   for (std::size_t i = 0; i < count; ++i) text += table_row(rows[i], i + 1, pages);
   text += "</tbody></table>\n";
   if (count < rows.size())
@@ -259,6 +270,15 @@ std::string provenance(const BatchFacts& facts) {
     for (const std::string& note : model.notes) rows.push_back({"note", printable(note)});
   }
   return "<h2>Provenance</h2>\n" + scrolling("Provenance", html_table({}, rows));
+}
+
+/// The scripts stand before the packed parts, so that the first rows are there before the page is.
+std::string scripts(const IndexData& data) {
+  std::string text = "<script type=\"application/json\" id=\"index-facts\">" + data.facts +
+                     "</script>\n<script>" + std::string(index_script()) + "</script>\n";
+  for (const std::string& part : data.parts)
+    text += "<script type=\"text/plain\" class=\"part\">" + part + "</script>\n";
+  return text;
 }
 
 }  // namespace
@@ -292,9 +312,7 @@ std::string render_index_page(const std::vector<BatchRow>& rows, const BatchSumm
           trends(rows) + wear_part(summary) + twins_part(summary);
   text += "<h2 id=\"list\">Logs</h2>\n" + tools(summary) + index_table(rows, pages) + provenance(facts) +
           "</main>\n";
-  text +=
-      "<script type=\"application/json\" id=\"index-data\">" + index_data(rows, facts, pages) + "</script>\n";
-  return text + "<script>" + std::string(index_script()) + "</script>\n</body>\n</html>\n";
+  return text + scripts(index_data(rows, facts, pages)) + "</body>\n</html>\n";
 }
 
 }  // namespace faultline

@@ -19,12 +19,24 @@ std::string index_thumbnail(const BatchRow& row);
 /// to logs/<result>.html with `pages`, else to the JSON.
 std::string render_index_page(const std::vector<BatchRow>& rows, const BatchSummary& summary, bool pages);
 
-/// All rows as JSON for the page's scripts, safe inside a <script> element: {pages, time, models[], labels[],
-/// parameters[], rows[]}; a row is [log, verdict, model, result, faults, reason, start_s, end_s, period_s,
-/// joints, issues, rows, residual_rms[], residual_peak[], condition, parameters], a fault [label, joint,
-/// onset_s, alarm_s, end_s, confidence], a condition or parameter [name, value, half of its 95 % interval];
-/// models, labels and names by their place in the lists. `time`: all judged logs contain the date.
-std::string index_data(const std::vector<BatchRow>& rows, const BatchFacts& facts, bool pages);
+/// Rows that stand in the page as they are, also for readers without scripts; more would cost those who have
+/// them.
+inline constexpr std::size_t kIndexFirstRows = 500;
+
+/// The rows of a batch for the scripts of its page, in parts of columns. A part is an object of arrays with a
+/// value for each of its rows: log, verdict, result, reason, doubt, model, start (s), end (s), period (s),
+/// joints, issues, count (rows of the log); rms and peak (such an array for each joint); condition and
+/// parameters ({name: [values, halves of their 95 % intervals]}); and of faults[]: [row, label, joint,
+/// onset_s, alarm_s, end_s, confidence]. Models, labels and names of parameters are named by their place in
+/// lists.
+struct IndexData {
+  /// {pages, time, logs, models[], labels[], parameters[], first} as JSON, safe inside a <script> element.
+  /// `time`: all judged logs contain the date. A label is [kind, words]. `first`: the part of the first
+  /// kIndexFirstRows rows.
+  std::string facts;
+  std::vector<std::string> parts;  ///< the others, packed()
+};
+IndexData index_data(const std::vector<BatchRow>& rows, const BatchFacts& facts, bool pages);
 
 /// What is put into every index, embedded when the program is built (embed_assets.cmake).
 std::string_view index_style();

@@ -2,23 +2,20 @@
 // Filters, order and columns of the page; the part of its address after # keeps them.
 'use strict';
 (() => {
-  const {rows} = faultlineIndex;
+  const {data, rows, load} = faultlineIndex;
   const {columns, Table} = faultlineRows;
   const fields = ['text', 'verdict', 'kind', 'model'].map((id) => document.getElementById(id)).filter(Boolean);
   const count = document.getElementById('shown'), choice = document.querySelector('#choice fieldset');
   const usual = columns.filter((column) => column.usual).map((column) => column.id);
   const state = {order: 'no', columns: usual};
   const table = new Table(document.getElementById('table'), sort);
-  let words = null, orderOfRows = rows, sortedBy = 'no';
-
-  const wordsOf = (row) => `${row.log} ${row.verdict} ${row.faults.map((f) => f.words + ' ' + f.kind).join(' ')} ${
-    row.reason}`.toLowerCase();
+  let orderOfRows = rows, sortedBy = null, why = 'the others are being unpacked';
 
   function passes(row, wanted) {
     const [text, verdict, kind, model] = ['text', 'verdict', 'kind', 'model'].map((id) => wanted[id]);
     return (!verdict || row.verdict === verdict) && (!model || row.model === Number(model)) &&
       (!kind || row.faults.some((fault) => fault.kind === kind)) &&
-      text.every((word) => words[row.no - 1].includes(word));
+      text.every((word) => row.words.includes(word));
   }
 
   function compare(a, b) {
@@ -30,6 +27,7 @@
     if (sortedBy === state.order) return orderOfRows;
     const down = state.order.startsWith('-');
     const column = columns.find((c) => c.id === state.order.slice(down ? 1 : 0));
+    if (column.id === 'no' && !down) return rows;
     const keyed = rows.map((row) => ({row, key: column.value(row)}));
     const missing = (key) => key === null || key === undefined;
     keyed.sort((a, b) => missing(a.key) - missing(b.key) ||
@@ -42,12 +40,12 @@
     const wanted = {model: ''};
     for (const field of fields) wanted[field.id] = field.value;
     wanted.text = wanted.text.toLowerCase().split(/\s+/).filter(Boolean);
-    if (wanted.text.length && !words) words = rows.map(wordsOf);
     const all = !wanted.text.length && !wanted.verdict && !wanted.kind && !wanted.model;
-    const list = all ? inOrder() : inOrder().filter((row) => passes(row, wanted));
+    const list = all ? inOrder().slice() : inOrder().filter((row) => passes(row, wanted));
     table.show(list, state.columns, state.order);
     faultlineTrendGroup.show(all ? null : new Set(list));
-    count.textContent = `${list.length} of ${rows.length} logs`;
+    count.textContent = rows.length === data.logs ? `${list.length} of ${rows.length} logs` :
+      `${list.length} of the first ${rows.length} of ${data.logs} logs; ${why}`;
   }
 
   function keep() {
@@ -92,10 +90,28 @@
       keep();
     });
   }
-  // The row of a log that the filters hide is not in the plots either.
-  faultlineTrendGroup.start((row) => table.goTo(row));
+  function startTrends() {
+    // The row of a log that the filters hide is not in the plots either.
+    faultlineTrendGroup.start((row) => table.goTo(row));
+    sortedBy = null;
+    show();
+  }
+
+  async function loadOthers() {
+    try {
+      await load();
+      why = 'the others are missing in this file: copy it again';
+    } catch (error) {
+      why = `this browser cannot unpack the others (${error.message}); index.csv lists all`;
+    }
+    startTrends();
+  }
+
   for (const field of fields) field.addEventListener('input', () => { show(); keep(); });
   addEventListener('hashchange', restore);
   document.documentElement.classList.add('js');
   restore();
+  // For those who measure: when the first rows are on the screen, and when all are there.
+  requestAnimationFrame(() => requestAnimationFrame(() => performance.mark('first rows')));
+  faultlineIndex.whole = rows.length < data.logs ? loadOthers() : startTrends();
 })();

@@ -3,12 +3,12 @@
 'use strict';
 const faultlineTrendGroup = (() => {
   const {data} = faultlineIndex;
-  const {judged, panels} = faultlineTrends;
+  const {judge, judged, panels} = faultlineTrends;
   const {Plot} = faultlineTrendPlot;
   const LEAST = 4;  // logs in sight
 
   const group = {
-    limit: [0.5, judged.length + 0.5], range: [0.5, judged.length + 0.5], passes: null, plots: [], goTo: () => {},
+    limit: null, range: null, passes: null, plots: [], goTo: () => {},
     zoom(from, to) {
       const all = this.limit[1] - this.limit[0], width = Math.min(Math.max(to - from, Math.min(LEAST, all)), all);
       from = Math.min(Math.max(from, this.limit[0]), this.limit[1] - width);
@@ -59,9 +59,13 @@ const faultlineTrendGroup = (() => {
     place.append(bar);
   }
 
+  // When all rows are there.
   function start(goTo) {
     const place = document.getElementById('trends-live');
     if (!place) return;
+    judge();
+    group.limit = [0.5, judged.length + 0.5];
+    group.range = group.limit;
     group.goTo = goTo;
     tools(place);
     const come = (figure) => {
@@ -86,5 +90,5 @@ const faultlineTrendGroup = (() => {
     addEventListener('beforeprint', () => place.querySelectorAll('figure').forEach(come));
   }
 
-  return {start, show: (passing) => document.getElementById('trends-live') && group.show(passing)};
+  return {start, show: (passing) => group.limit && group.show(passing)};
 })();

@@ -4,9 +4,15 @@
 'use strict';
 const faultlineTrends = (() => {
   const {data, rows} = faultlineIndex;
-  const judged = rows.filter((row) => row.verdict === 'healthy' || row.verdict === 'faulty');
-  if (data.time) judged.sort((a, b) => a.start - b.start || a.no - b.no);
-  judged.forEach((row, i) => { row.at = i + 1; });
+  const MOST_FOLDERS = 200;  // of more, no reader finds one in the legend; the table of folders has them
+  const judged = [];
+
+  // To be called once, when all rows are there.
+  function judge() {
+    judged.push(...rows.filter((row) => row.verdict === 'healthy' || row.verdict === 'faulty'));
+    if (data.time) judged.sort((a, b) => a.start - b.start || a.no - b.no);
+    judged.forEach((row, i) => { row.at = i + 1; });
+  }
 
   function curve(name, value) {
     const points = [];
@@ -22,9 +28,9 @@ const faultlineTrends = (() => {
   }
 
   function residuals() {
-    const joints = Math.max(0, ...judged.slice(0, 1e5).map((row) => row.rms.length));
+    const joints = judged.reduce((most, row) => Math.max(most, row.part.rms.length), 0);
     return Array.from({length: joints}, (_, j) =>
-      curve('joint ' + (j + 1), (row) => [row.rms[j] === undefined ? null : row.rms[j]]));
+      curve('joint ' + (j + 1), (row) => [j < row.part.rms.length ? row.part.rms[j][row.i] : null]));
   }
 
   function groups(of, name) {
@@ -39,16 +45,21 @@ const faultlineTrends = (() => {
     }));
   }
 
-  // [name, value, half of the interval] lists of rows, by name; `level` tells what 100 % is, for names and models.
+  // Names of values in the columns of a part, of all judged logs.
+  const namesIn = (list) => [...new Set(Array.from(new Set(judged.map((row) => row.part)))
+    .flatMap((part) => Object.keys(part[list])))];
+
+  // Named values of the judged logs, by name; `level` makes a curve of the name and all its values.
   function shares(list, level, wanted) {
-    const values = new Map();
-    for (const row of judged)
-      for (const [name, value, half] of row[list]) {
-        if (!wanted(name)) continue;
-        if (!values.has(name)) values.set(name, []);
-        values.get(name).push({row, value, half});
+    return namesIn(list).filter(wanted).map((name) => {
+      const all = [];
+      for (const row of judged) {
+        const columns = row.part[list][name];
+        if (columns && columns[0][row.i] !== null)
+          all.push({row, value: columns[0][row.i], half: columns[1][row.i]});
       }
-    return Array.from(values, ([name, all]) => level(data.parameters[name], all)).filter((c) => c.points.length);
+      return level(data.parameters[name], all);
+    }).filter((curve) => curve.points.length);
   }
 
   const isFriction = (index) => /^friction_\d+$/.test(data.parameters[index]);
@@ -79,20 +90,26 @@ const faultlineTrends = (() => {
 
   // Curves are made when their panel comes into sight.
   function panels() {
-    const several = (of) => judged.some((row) => of(row) !== of(judged[0]));
+    const several = (of, most) => {
+      const keys = new Set(judged.map(of));
+      return keys.size > 1 && keys.size <= most;
+    };
+    const named = (list, wanted) => namesIn(list).filter(wanted).some((name) =>
+      judged.some((row) => row.part[list][name] && row.part[list][name][0][row.i] !== null));
     const model = (row) => row.model, folder = (row) => row.folder;
     const all = [
-      {title: 'Residual (1 as in healthy logs)', log: true, has: judged.some((row) => row.rms.length), make: residuals},
-      {title: 'Residual by robot (model)', log: true, has: several(model),
+      {title: 'Residual (1 as in healthy logs)', log: true, has: judged.some((row) => row.residual !== null), make: residuals},
+      {title: 'Residual by robot (model)', log: true, has: several(model, Infinity),
        make: () => groups(model, (key) => data.models[key] || '-')},
-      {title: 'Residual by folder', log: true, has: several(folder), make: () => groups(folder, (key) => key || '(files)')},
+      {title: 'Residual by folder', log: true, has: several(folder, MOST_FOLDERS),
+       make: () => groups(folder, (key) => key || '(files)')},
       {title: 'Faults', zero: true, has: true, make: () => [curve('faults', (row) => [row.faults.length])]},
       {title: 'Friction, % from identified', make: friction,
-       has: judged.some((row) => row.condition.some(([name]) => isFriction(name)))},
-      {title: 'Parameters, % from their median', has: judged.some((row) => row.parameters.length), make: parameters},
+       has: named('condition', isFriction)},
+      {title: 'Parameters, % from their median', has: named('parameters', () => true), make: parameters},
     ];
     return judged.length < 2 ? [] : all.filter((panel) => panel.has);
   }
 
-  return {judged, panels};
+  return {judge, judged, panels};
 })();
