@@ -11,6 +11,7 @@ onnx are imported only by what needs them.
 """
 from . import cases, golden
 from ._batch import BatchResult, batch, merge_batches
+from ._by_robot import logs_by_robot
 from ._comparison import Comparison, compare
 from ._conversion import Conversion, convert
 from ._diagnosis import Curves, Diagnosis, Fault, diagnose
@@ -22,6 +23,7 @@ from ._log import Log, open_log
 from ._model import Learned, Model, learn, load_model, sign_model
 from ._onnx import OnnxFile
 from ._record import Record
+from ._robots import learn_robots
 from ._simulation import reproduce, simulate
 from .errors import Error, InputError, InternalError, OutputError, UsageError
 
@@ -56,7 +58,9 @@ __all__ = [
     "identify",
     "inspect",
     "learn",
+    "learn_robots",
     "load_model",
+    "logs_by_robot",
     "merge_batches",
     "open_log",
     "reproduce",

@@ -31,6 +31,11 @@ def paths_of(paths: Union[PathLike, Iterable[PathLike]], what: str) -> List[str]
     return found
 
 
+def text_of(key: Any) -> str:
+    """The name of a log as text, of a path or of anything else."""
+    return os.fsdecode(key) if isinstance(key, (str, bytes, os.PathLike)) else str(key)
+
+
 def _label(name: str, given: Any) -> Label:
     is_label = (
         isinstance(given, (tuple, list))
@@ -50,7 +55,7 @@ def labels_for(labels: Mapping[Any, Any], logs: List[Any]) -> Dict[str, Label]:
     names = [os.path.basename(log.name) for log in logs]
     found = {}
     for key, given in labels.items():
-        name = os.fsdecode(key) if isinstance(key, (str, bytes, os.PathLike)) else str(key)
+        name = text_of(key)
         found[name] = _label(name, given)
         if os.path.basename(name) not in names:
             raise UsageError(f"labels, {name}", f"is not one of the logs, which are: {', '.join(names)}")

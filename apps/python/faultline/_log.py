@@ -127,12 +127,17 @@ def log_of(source: LogLike) -> Log:
     return source if isinstance(source, Log) else Log(source)
 
 
-def handles_of(logs: Union[LogLike, Iterable[LogLike]]) -> List[Any]:
-    """One log or several, for the compiled part. Frames without a name are counted."""
+def logs_of(logs: Union[LogLike, Iterable[LogLike]]) -> List[Log]:
+    """One log or several. Frames without a name are counted."""
     if isinstance(logs, (str, os.PathLike, Log, MappingType)) or is_frame(logs):
-        return [log_of(logs)._handle]
-    handles = []
+        return [log_of(logs)]
+    found = []
     for number, one in enumerate(logs, 1):
         in_memory = isinstance(one, MappingType) or is_frame(one)
-        handles.append((Log(one, name=f"{NAME_IN_MEMORY} {number}") if in_memory else log_of(one))._handle)
-    return handles
+        found.append(Log(one, name=f"{NAME_IN_MEMORY} {number}") if in_memory else log_of(one))
+    return found
+
+
+def handles_of(logs: Union[LogLike, Iterable[LogLike]]) -> List[Any]:
+    """The same for the compiled part."""
+    return [log._handle for log in logs_of(logs)]
