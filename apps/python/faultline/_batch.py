@@ -4,7 +4,7 @@ import json
 import pathlib
 from typing import Any, Iterable, List, Mapping, Optional, Tuple, Union
 
-from . import _faultline
+from . import _faultline, _html
 from ._arguments import PathLike, Progress, path_of, paths_of
 from ._model import Model, files_of
 from ._record import Record, Result, frame_of
@@ -34,6 +34,15 @@ class BatchResult(Result):
     def to_dataframe(self) -> Any:
         """The rows as a pandas DataFrame."""
         return frame_of([row.to_dict() for row in self.rows])
+
+    def _repr_html_(self) -> str:
+        """The counts and a table of the logs, for notebooks."""
+        heads = ("log", "model", "verdict", "reason", "faults")
+        rows = [
+            (row.log, row.model, row.verdict, row.reason, "; ".join(map(_html.finding, row.faults)))
+            for row in self.rows
+        ]
+        return _html.headline(self.text().splitlines()[0]) + _html.table(heads, rows)
 
 
 def _models_of(

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Comparing two runs."""
-from typing import Any, List, Optional, Union
+from typing import Any, List, Union
 
-from . import _faultline
+from . import _faultline, _html
 from ._arguments import PathLike, Progress, path_of
 from ._log import LogLike, log_of
 from ._model import Model
@@ -24,6 +24,24 @@ class Comparison(MadeResult):
     def to_dataframe(self) -> Any:
         """The signals as a pandas DataFrame, one row per signal."""
         return frame_of([signal.to_dict() for signal in self.signals])
+
+    def _repr_html_(self) -> str:
+        """The verdict and a table of the signals, for notebooks."""
+        heads = ("signal", "joint", "unit", "rms", "largest", "at, s", "threshold", "differs from, s")
+        rows = [
+            (
+                signal.quantity,
+                signal.joint,
+                signal.unit,
+                signal.rms,
+                signal.largest,
+                _html.seconds(signal.largest_s),
+                signal.threshold,
+                _html.seconds(signal.diverges_s) if signal.judged else "not judged",
+            )
+            for signal in self.signals
+        ]
+        return _html.headline(self.verdict) + _html.table(heads, rows) + _html.listed("Notes", self.notes)
 
 
 def compare(

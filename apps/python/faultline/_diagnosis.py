@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Diagnosing a log."""
-import html
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 
-from . import _faultline
+from . import _faultline, _html
 from ._arguments import PathLike, Progress, path_of
 from ._kept import COLOR, UNICODE, WIDTH, kept
 from ._log import LogLike, log_of
@@ -128,29 +127,20 @@ class Diagnosis(Result):
         rows = [
             (
                 fault.kind.replace("_", " "),
-                "" if fault.joint is None else str(fault.joint),
-                _seconds(fault.onset_s),
-                "end of log" if fault.end_s is None else _seconds(fault.end_s),
-                f"{fault.confidence:.2f}",
-                fault.next_check or "",
+                fault.joint,
+                _html.seconds(fault.onset_s),
+                "end of log" if fault.end_s is None else _html.seconds(fault.end_s),
+                round(fault.confidence, 2),
+                fault.next_check,
             )
             for fault in self.faults
         ]
-        table = _row("th", heads) + "".join(_row("td", row) for row in rows) if rows else ""
-        missing = "".join(f"<li>{html.escape(each)}</li>" for each in self.cannot_see)
         return (
-            f"<p><b>{html.escape(self.sentence)}</b></p>"
-            + (f"<table>{table}</table>" if table else "")
-            + (f"<details><summary>What this log cannot show</summary><ul>{missing}</ul></details>" if missing else "")
+            _html.headline(self.sentence)
+            + _html.table(heads, rows)
+            + _html.listed("What is imperfect in this log", _html.doubts_of(self.log.issues), is_open=True)
+            + _html.listed("What this log cannot show", self.cannot_see)
         )
-
-
-def _seconds(value: Optional[float]) -> str:
-    return "" if value is None else f"{value:.3f}"
-
-
-def _row(tag: str, cells: Tuple[str, ...]) -> str:
-    return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
 
 
 def diagnose(

@@ -2,7 +2,7 @@
 """The results of many batches, by robot."""
 from typing import Any, Iterable, List, Union
 
-from . import _faultline
+from . import _faultline, _html
 from ._arguments import PathLike, path_of, paths_of
 from ._record import MadeResult, Record, frame_of
 
@@ -30,6 +30,22 @@ class History(MadeResult):
                 for robot in self.robots
             ]
         )
+
+    def _repr_html_(self) -> str:
+        """A line a robot, for notebooks."""
+        heads = ("robot", "logs", "healthy", "faulty", "inconclusive", "worst finding")
+        rows = [
+            (
+                robot.robot,
+                robot.logs,
+                robot.healthy,
+                robot.faulty,
+                robot.inconclusive,
+                "" if robot.worst_finding is None else _html.finding(robot.worst_finding),
+            )
+            for robot in self.robots
+        ]
+        return _html.headline(f"{len(rows)} robot{'s' * (len(rows) != 1)}") + _html.table(heads, rows)
 
 
 def history(

@@ -2,7 +2,7 @@
 """Identifying a robot."""
 from typing import Any, Iterable, List, Optional, Union
 
-from . import _faultline
+from . import _faultline, _html
 from ._arguments import PathLike, Progress, path_of
 from ._log import LogLike, handles_of
 from ._record import MadeResult, Record, frame_of
@@ -25,6 +25,21 @@ class Identification(MadeResult):
     def to_dataframe(self) -> Any:
         """The base parameters as a pandas DataFrame, one row per parameter."""
         return frame_of([parameter.to_dict() for parameter in self.base_parameters])
+
+    def _repr_html_(self) -> str:
+        """The state and a table of the base parameters, for notebooks."""
+        meanings = [one["meaning"] if "meaning" in one else "" for one in self.base_parameters]
+        heads = ("parameter", "value", "95 % from", "to", "unit", "what it is")
+        rows = [
+            (
+                one.name,
+                *((one.value, *one.ci95) if one.identifiable else (None, None, None)),
+                one.unit,
+                meaning if one.identifiable else f"not identifiable: {one.why_not}",
+            )
+            for one, meaning in zip(self.base_parameters, meanings)
+        ]
+        return _html.headline(self.text().splitlines()[0]) + _html.table(heads, rows)
 
     def robot_text(self, *, urdf: bool = False) -> str:
         """The identified robot as a robot file, or as URDF."""

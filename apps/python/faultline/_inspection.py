@@ -3,7 +3,7 @@
 import json
 from typing import Any, List, Optional
 
-from . import _faultline
+from . import _faultline, _html
 from ._arguments import PathLike, Progress, path_of
 from ._log import LogLike, log_of
 from ._record import Record, Result, frame_of
@@ -36,6 +36,24 @@ class Inspection(Result):
     def to_dataframe(self) -> Any:
         """The channels as a pandas DataFrame, one row per channel."""
         return frame_of([channel.to_dict() for channel in self.channels])
+
+    def _repr_html_(self) -> str:
+        """The summary and a table of the channels, for notebooks."""
+        heads = ("channel", "column", "unit", "least", "largest", "missing")
+        rows = [
+            (channel.name, channel.column, channel.unit, channel.min, channel.max, channel.missing)
+            for channel in self.channels
+        ]
+        abilities = [
+            f"{one.name.replace('_', ' ')}: {one.fit}" + (f", {one.why}" if one.why else "")
+            for one in self.analyses
+        ]
+        return (
+            _html.headline(" ".join(self.text().splitlines()[0].split()))
+            + _html.table(heads, rows)
+            + _html.listed("What is imperfect in this log", _html.doubts_of(self.issues), is_open=True)
+            + _html.listed("What this log is good for", abilities)
+        )
 
 
 def inspect(log: LogLike, *, robot: Optional[PathLike] = None, progress: Progress = None) -> Inspection:

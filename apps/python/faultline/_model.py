@@ -2,7 +2,7 @@
 """Models: learned, loaded, used."""
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple, Union
 
-from . import _faultline, _onnx
+from . import _faultline, _html, _onnx
 from ._arguments import Label, PathLike, Progress, labels_for, path_of
 from ._diagnosis import Diagnosis, diagnosed
 from ._log import LogLike, handles_of, log_of
@@ -213,6 +213,29 @@ class Learned(MadeResult):
         if self._model is None:
             self._model = Model._of(self._made.model())
         return self._model
+
+    def _repr_html_(self) -> str:
+        """What was learned, and what the model finds in simulated runs of faults, for notebooks."""
+        if "validation" not in self:
+            return _html.report(self.text())
+        heads = ("simulated fault", "runs", "found", "right joint", "right fault and joint", "delay, s")
+        rows = [
+            (
+                row.kind.replace("_", " "),
+                row.runs,
+                row.detected,
+                row.right_joint,
+                row.right_kind_and_joint,
+                _html.seconds(row.median_delay_s),
+            )
+            for row in self.validation.rows
+        ]
+        doubts = self.doubts if "doubts" in self else []
+        return (
+            _html.headline(self.text().splitlines()[0])
+            + _html.table(heads, rows)
+            + _html.listed("Doubts about this model", doubts, is_open=True)
+        )
 
 
 def load_model(path: PathLike, *, cases: Optional[PathLike] = None) -> Model:

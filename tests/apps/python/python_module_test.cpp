@@ -41,10 +41,11 @@ TEST_P(PythonModule, PassesItsPythonTests) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, PythonModule,
-                         testing::Values("test_commands", "test_diagnosis", "test_documented", "test_errors",
-                                         "test_example", "test_frames", "test_import", "test_interrupt",
-                                         "test_learn", "test_lerobot", "test_networks", "test_onnx",
-                                         "test_pickle", "test_robots", "test_threads", "test_wheel"),
+                         testing::Values("test_cells", "test_commands", "test_diagnosis", "test_documented",
+                                         "test_errors", "test_example", "test_frames", "test_import",
+                                         "test_interrupt", "test_learn", "test_lerobot", "test_networks",
+                                         "test_onnx", "test_pickle", "test_robots", "test_threads",
+                                         "test_wheel"),
                          [](const auto& file) { return std::string(file.param).substr(5); });
 
 }  // namespace
