@@ -7,7 +7,8 @@ MOST_ROWS = 40
 """Of a table in a cell; the frame has all."""
 DIGITS = 5
 """That an estimate is shown with."""
-LEFT = ' style="text-align:left"'
+LEFT = "text-align:left"
+ONE_LINE = "white-space:nowrap"
 
 
 class Seconds(float):
@@ -19,6 +20,7 @@ def _is_text(value: Any) -> bool:
 
 
 def _cell(tag: str, value: Any, is_text: bool) -> str:
+    style = ";".join([LEFT] * is_text + [ONE_LINE] * (tag == "th"))
     if value is None:
         value = ""
     elif isinstance(value, Seconds):
@@ -26,7 +28,7 @@ def _cell(tag: str, value: Any, is_text: bool) -> str:
     elif isinstance(value, float):
         value = f"{value:.{DIGITS}g}"
     text = str(value)
-    return f"<{tag}{LEFT if is_text else ''}>{html.escape(text)}</{tag}>"
+    return f"<{tag}" + (f' style="{style}">' if style else ">") + f"{html.escape(text)}</{tag}>"
 
 
 def _row(tag: str, cells: Iterable[Any], texts: Iterable[bool]) -> str:

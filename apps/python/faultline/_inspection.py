@@ -49,7 +49,7 @@ class Inspection(Result):
             for one in self.analyses
         ]
         return (
-            _html.headline(" ".join(self.text().splitlines()[0].split()))
+            _html.headline(self.text().splitlines()[0].replace("  ", ": ", 1))
             + _html.table(heads, rows)
             + _html.listed("What is imperfect in this log", _html.doubts_of(self.issues), is_open=True)
             + _html.listed("What this log is good for", abilities)

@@ -44,8 +44,8 @@ INSTANTIATE_TEST_SUITE_P(Files, PythonModule,
                          testing::Values("test_cells", "test_commands", "test_diagnosis", "test_documented",
                                          "test_errors", "test_example", "test_frames", "test_import",
                                          "test_interrupt", "test_learn", "test_lerobot", "test_networks",
-                                         "test_onnx", "test_pickle", "test_robots", "test_threads",
-                                         "test_wheel"),
+                                         "test_notebook", "test_onnx", "test_page", "test_pickle",
+                                         "test_robots", "test_threads", "test_wheel"),
                          [](const auto& file) { return std::string(file.param).substr(5); });
 
 }  // namespace

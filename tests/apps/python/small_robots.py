@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Two simulated robots that are learned in some seconds, and their runs as frames."""
+"""Two simulated robots that are learned in some seconds, and tests with their runs as frames."""
+import pathlib
+import tempfile
+
+import pandas
+
 import faultline
+from support import InFolder
 
 ROBOT = """name = "two joints"
 axes = "RR"
@@ -23,14 +29,13 @@ run = [
   {{name = "bad", fault = {{kind = "{fault}", joint = {joint}, onset_s = 5.0, size = 0.5}}}},
 ]
 """
+HEALTHY = ("1", "2", "3")
 FAULTS = {"cell-1": ("locked", 1), "cell-2": ("torque_loss", 2)}
 """Of the bad run of each robot."""
 
 
 def make_robots(folder):
     """Robot files by robot, and the frames of its runs by robot and run."""
-    import pandas
-
     files, frames = {}, {}
     for seed, (robot, (fault, joint)) in enumerate(FAULTS.items()):
         truth = {"seed": 10 * seed, "mass": 1.0 + seed, "length": 1.0 - 0.2 * seed}
@@ -42,6 +47,39 @@ def make_robots(folder):
         faultline.simulate(folder / f"{robot}.spec.toml", folder / robot)
         frames[robot] = {
             run: pandas.read_csv(folder / robot / f"{run}.csv", float_precision="round_trip")
-            for run in ("1", "2", "3", "bad")
+            for run in (*HEALTHY, "bad")
         }
     return files, frames
+
+
+def named(frames, robot, runs=HEALTHY):
+    """The runs of one robot, called as logs_by_robot calls them."""
+    return [faultline.Log(frames[robot][run], name=f"{robot} run {run}") for run in runs]
+
+
+def table_of(frames, runs=HEALTHY):
+    """The rows of all robots and runs, mixed: sorted by time, so that rows of one time are neighbours."""
+    parts = [frames[robot][run].assign(robot=robot, run=run) for robot in frames for run in runs]
+    return pandas.concat(parts).sort_values("t", kind="stable").reset_index(drop=True)
+
+
+class OfRobots(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.made = pathlib.Path(folder.name)
+        cls.files, cls.frames = make_robots(cls.made)
+        cls.coarse = {
+            robot: {run: frame.drop(columns=["tau1", "tau2"]) for run, frame in runs.items()}
+            for robot, runs in cls.frames.items()
+        }
+        """Without torque, which is learned in a moment."""
+
+    def learn_coarse(self, table=None, **options):
+        given = {"by": "robot", "run": "run", **options}
+        robot = given.pop("robot", self.files)
+        return faultline.learn_robots(table_of(self.coarse) if table is None else table, robot, **given)
+
+    def files_below(self):
+        return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*"))

@@ -1,52 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Models of several robots from one table are those of each robot alone."""
 import json
-import pathlib
-import tempfile
 import unittest
 
 import pandas
 
 import faultline
-from small_robots import FAULTS, make_robots
-from support import InFolder
+from small_robots import FAULTS, HEALTHY, OfRobots, named, table_of
 
-HEALTHY = ("1", "2", "3")
 ONSET_S, LARGEST_ERROR_S = 5.0, 0.1
-
-
-def named(frames, robot, runs=HEALTHY):
-    """The runs of one robot, called as logs_by_robot calls them."""
-    return [faultline.Log(frames[robot][run], name=f"{robot} run {run}") for run in runs]
-
-
-def table_of(frames, runs=HEALTHY):
-    """The rows of all robots and runs, mixed: sorted by time, so that rows of one time are neighbours."""
-    parts = [frames[robot][run].assign(robot=robot, run=run) for robot in frames for run in runs]
-    return pandas.concat(parts).sort_values("t", kind="stable").reset_index(drop=True)
-
-
-class OfRobots(InFolder):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.made = pathlib.Path(folder.name)
-        cls.files, cls.frames = make_robots(cls.made)
-        cls.coarse = {
-            robot: {run: frame.drop(columns=["tau1", "tau2"]) for run, frame in runs.items()}
-            for robot, runs in cls.frames.items()
-        }
-        """Without torque, which is learned in a moment."""
-
-    def learn_coarse(self, table=None, **options):
-        given = {"by": "robot", "run": "run", **options}
-        robot = given.pop("robot", self.files)
-        return faultline.learn_robots(table_of(self.coarse) if table is None else table, robot, **given)
-
-    def files_below(self):
-        return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*"))
-
 
 class Learning(OfRobots):
     def test_mixed_rows_give_the_bytes_of_each_robot_alone(self):
