@@ -52,6 +52,8 @@ class Learning(OfRobots):
         for form in (
             table.set_index(["robot", "run"]),
             table.set_index("robot"),
+            table.set_index("t"),
+            table.set_index(["robot", "run", "t"]),
             table.assign(robot=table["robot"].astype("category"), run=table["run"].astype("string")),
             {name: table[name].to_numpy() for name in table},
             [table.iloc[:half], table.iloc[half:]],
