@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "lib/cases/case.hpp"
-#include "lib/fault/fault_kind.hpp"
+#include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 namespace {
@@ -20,11 +20,9 @@ bool explains_the_log(const FaultLabel& label, const DecisionBasis& basis) {
          std::find(basis.as_likely.begin(), basis.as_likely.end(), label) != basis.as_likely.end();
 }
 
-std::string words(const FaultLabel& label) { return label_text(label, " at joint "); }
-
 std::string disagreement(const Episode& episode) {
-  return fmt::format("the networks disagree (MLP {}, RBFN {})", words(episode.mlp.label),
-                     words(episode.rbfn.label));
+  return fmt::format("the networks disagree (MLP: {}; RBFN: {})", plain_words(episode.mlp.label),
+                     plain_words(episode.rbfn.label));
 }
 
 /// ", all simulated," if every case that voted was simulated, else "".
@@ -71,16 +69,18 @@ std::string reason_in_words(const Decision& decision, const DecisionBasis& basis
   const Episode& episode = basis.episode;
   switch (decision.reason) {
     case DecisionReason::networks_agree:
-      return fmt::format("both networks name {}", words(decision.label));
+      return fmt::format("both networks agree: {}", plain_words(decision.label));
     case DecisionReason::votes_settle:
-      return fmt::format("{}; {} similar cases{} and the opinions give {} {:.0f} % of the votes",
-                         disagreement(episode), basis.votes.precedents.size(), if_simulated(basis.votes),
-                         words(decision.label), 100.0 * decision.confidence);
+      return fmt::format(
+          "{}; of the votes of {} similar cases{} and the opinions, {:.0f} % are for one fault: {}",
+          disagreement(episode), basis.votes.precedents.size(), if_simulated(basis.votes),
+          100.0 * decision.confidence, plain_words(decision.label));
     case DecisionReason::evidence_alone:
       return "networks and cases give no decision; this fault explains the log best";
     case DecisionReason::log_excludes:
-      return fmt::format("networks or cases name {}, which explains the log much worse than {}",
-                         words(decision.voted), words(decision.label));
+      return fmt::format(
+          "networks or cases name a fault ({}) that explains the log much worse than another ({})",
+          plain_words(decision.voted), plain_words(decision.label));
     case DecisionReason::no_known_form:
       return "under every known fault the residual of the motion is far larger than noise";
   }
@@ -94,12 +94,14 @@ std::vector<std::string> warnings_of_cases(const Decision& decision, const Votes
       warnings.push_back("no recorded case resembles this episode");
     else if (const LabelShare& most = votes.of_cases[0];
              most.label != decision.voted && most.label != decision.label && most.share > kClearShare)
-      warnings.push_back(fmt::format("most similar cases{} were {}", if_simulated(votes), words(most.label)));
+      warnings.push_back(fmt::format("in most similar cases{} the fault was another: {}", if_simulated(votes),
+                                     plain_words(most.label)));
   }
   for (const Neighbour& n : votes.precedents)
     if (n.found->outcome == CaseOutcome::rejected && n.found->decision == decision.label)
-      warnings.push_back(fmt::format("case {} (similarity {:.2f}) was also diagnosed as {}, wrongly",
-                                     n.found->id, n.similarity, words(decision.label)));
+      warnings.push_back(
+          fmt::format("case {} (similarity {:.2f}) had the same diagnosis, {}, which was wrong", n.found->id,
+                      n.similarity, plain_words(decision.label)));
   return warnings;
 }
 

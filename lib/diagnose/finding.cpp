@@ -119,9 +119,9 @@ std::vector<EvidenceItem> finding_evidence(const DecidedEpisode& decided, const 
   const auto label = std::find_if(basis.evidence.begin(), basis.evidence.end(),
                                   [&](const LabelEvidence& e) { return e.label == decided.decision.label; });
   if (label != basis.evidence.end() && std::isfinite(label->left))
-    items.push_back({"left_over", label->left, "times noise",
-                     fmt::format("residual of the motion under {} (1 is noise)",
-                                 label_text(label->label, " at joint "))});
+    items.push_back(
+        {"left_over", label->left, "times noise",
+         fmt::format("residual of the motion under \"{}\" (1 is noise)", plain_words(label->label))});
   if (decision.label.kind == FaultKind::unknown)
     items.push_back({"misfit", observed.fault.misfit, "nats",
                      "by which a free form explains the log better than the nearest known fault"});

@@ -73,8 +73,9 @@ struct FaultDescription {
   FaultKind kind = FaultKind::none;
   const char* name = "";        ///< in labels, JSON and reports; never changes
   const char* heading = "";     ///< in words
-  const char* of_a_joint = "";  ///< in words, after "joint N " or "link N "
+  const char* of_a_joint = "";  ///< in words, with "{}" for "joint N" or "link N"
   const char* next_check = "";  ///< sentences for a technician; "{}" stands for the joint
+  const char* learn_more = "";  ///< sentences: how the fault shows in a log, and what looks alike
   /// Format of the size in words: {first} and {second} size; the {joint}; of the first size its {percent},
   /// {magnitude} and sign as {much} or little; units {length} and {torque}.
   const char* size_words = "";
@@ -105,7 +106,8 @@ const FaultDescription& describe(FaultKind kind);
 std::vector<FaultLabel> fault_labels(int joints, const std::vector<Joint>& payload_links,
                                      bool torque_is_measured);
 
-/// Returns kind and joint in words, such as "joint 2 swings freely (no torque)" or "unknown fault".
+/// Returns kind and joint in the words of a technician, such as "joint 2 is locked", "the encoder of joint 3
+/// repeats one reading" or "unknown fault".
 std::string plain_words(const FaultLabel& label);
 
 /// Returns what to check next: sentences for a technician.

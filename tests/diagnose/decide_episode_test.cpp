@@ -41,7 +41,7 @@ TEST(DecideEpisode, NetworksThatAgreeNameTheFault) {
   EXPECT_EQ(finding.label, kLocked2);
   EXPECT_EQ(finding.decided_by, DecidedBy::agreement);
   EXPECT_NEAR(finding.confidence, 0.8, 1e-12);
-  EXPECT_EQ(item(finding, "decision")->text, "both networks name locked at joint 2");
+  EXPECT_EQ(item(finding, "decision")->text, "both networks agree: joint 2 is locked");
   EXPECT_EQ(item(finding, "warning"), nullptr);
   EXPECT_EQ(finding.precedents.size(), 3u);
   EXPECT_TRUE(finding.could_also_be.empty());
@@ -78,7 +78,8 @@ TEST(DecideEpisode, AFaultThatTheLogExcludesIsNotNamedDespiteNetworksAndCases) {
   const FaultFinding finding = decide_episode(episode, model, base_of(model, episode, kBias3, 3));
   EXPECT_EQ(finding.label, kLocked2);
   EXPECT_EQ(finding.decided_by, DecidedBy::evidence);
-  EXPECT_NE(item(finding, "decision")->text.find("sensor_bias at joint 3"), std::string::npos);
+  EXPECT_NE(item(finding, "decision")->text.find("the position sensor of joint 3 reads a shifted position"),
+            std::string::npos);
   EXPECT_NE(alternative(finding, kBias3), nullptr);
 }
 
@@ -125,7 +126,8 @@ TEST(DecideEpisode, ARejectionOfTheNameByEvidenceWarns) {
   const FaultFinding finding = decide_episode(episode, model, base);
   ASSERT_EQ(finding.decided_by, DecidedBy::evidence);
   ASSERT_NE(item(finding, "warning"), nullptr);
-  EXPECT_NE(item(finding, "warning")->text.find("also diagnosed as locked at joint 2"), std::string::npos);
+  EXPECT_NE(item(finding, "warning")->text.find("had the same diagnosis, joint 2 is locked, which was wrong"),
+            std::string::npos);
 }
 
 }  // namespace

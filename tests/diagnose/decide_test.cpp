@@ -39,7 +39,8 @@ TEST(Decide, CasesWarnWhenTheyContradictAnAgreement) {
   EXPECT_EQ(decided(episode, base).label, kLocked);
   const auto said = warnings(episode, base);
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_NE(said[0].find("sensor_bias at joint 3"), std::string::npos) << said[0];
+  EXPECT_NE(said[0].find("the position sensor of joint 3 reads a shifted position"), std::string::npos)
+      << said[0];
 }
 
 TEST(Decide, ARejectedPrecedentWarns) {

@@ -60,6 +60,13 @@ std::string precedents(const FaultFinding& f) {
   return text;
 }
 
+std::string learn_more(FaultKind kind) {
+  const std::string text = describe(kind).learn_more;
+  if (text.empty()) return "";
+  return "\n<details><summary>Learn more: how this fault shows in a log</summary>\n<p>" +
+         escaped_markup(text) + "</p></details>\n";
+}
+
 std::string column(const std::string& content) {
   return content.empty() ? "" : "<div>\n" + content + "</div>\n";
 }
@@ -81,7 +88,8 @@ std::string html_finding(const FaultFinding& f, const std::vector<PageFigure>& f
     text += "<p class=\"size\">Size: " + escaped_markup(size) + ".</p>\n";
   text += times(f, period_s);
   if (!f.next_check.empty())
-    text += "<div class=\"check\"><h3>Check next</h3>\n" + escaped_markup(f.next_check) + "</div>\n";
+    text += "<div class=\"check\"><h3>Check next</h3>\n" + escaped_markup(f.next_check) +
+            learn_more(f.label.kind) + "</div>\n";
   text += html_plots(figures, f.id, period_s);
   text += "<div class=\"columns\">\n";
   text += column(html_part("It could also be", html_list(alternative_lines(f))));
