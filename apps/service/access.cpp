@@ -91,8 +91,15 @@ std::string Access::new_session() const {
 bool Access::is_session(const std::string& session) const {
   const std::size_t middle = session.find('.');
   if (middle != 2 * kSessionBytes) return false;
-  return are_equal(session.substr(middle + 1),
+  const std::lock_guard lock(mutex_);
+  return !ended_.count(session) &&
+         are_equal(session.substr(middle + 1),
                    signature("session " + token_sha256_ + " " + session.substr(0, middle)));
+}
+
+void Access::end_session(const std::string& session) {
+  const std::lock_guard lock(mutex_);
+  ended_.insert(session);
 }
 
 std::string Access::form_key(const std::string& session) const { return signature("form " + session); }

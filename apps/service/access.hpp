@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ class Access {
   std::string cookie_name() const;
   std::string new_session() const;
   bool is_session(const std::string& session) const;
+  /// From now on the session is none, for whoever has a copy of its cookie. Safe to call from several
+  /// threads.
+  void end_session(const std::string& session);
   std::string form_key(const std::string& session) const;
   bool is_form_key(const std::string& session, const std::string& key) const;
 
@@ -40,6 +44,8 @@ class Access {
 
   std::string secret_, token_sha256_;
   std::vector<std::string> hosts_;
+  mutable std::mutex mutex_;
+  std::set<std::string> ended_;  ///< sessions
 };
 
 /// Limits how often an address may do something. Safe to call from several threads.

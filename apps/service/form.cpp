@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <filesystem>
 
 #include "apps/service/http.hpp"
 #include "lib/core/error.hpp"
@@ -17,8 +16,6 @@
 
 namespace faultline {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestStoredName = 150;  // bytes
 constexpr double kUploadPatience_s = 20.0;       // before a rate counts
@@ -72,9 +69,11 @@ std::string stored_name(const std::string& foreign) {
   return name;
 }
 
-SentForm::~SentForm() {
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
+std::optional<std::int64_t> whole_number(const std::string& text) {
+  constexpr std::size_t kMostDigits = 12;
+  if (text.empty() || text.size() > kMostDigits || text.find_first_not_of("0123456789") != std::string::npos)
+    return {};
+  return std::stoll(text);
 }
 
 std::string SentForm::field(const std::string& name) const {
@@ -140,12 +139,9 @@ class FormReader {
           413, fmt::format("These are more than {} files; send them in several steps.", limits_.most_files));
     if (std::count(form_.files_.begin(), form_.files_.end(), name))
       return refuse(422, fmt::format("Two files have the name {}; rename one of them.", name));
-    if (form_.folder_.empty()) {
-      form_.folder_ = folder_.new_incoming();
-      ::mkdir((form_.folder_ + "/logs").c_str(), S_IRWXU);
-    }
-    const std::string path = form_.folder_ + "/logs/" + name;
-    file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+    if (!form_.incoming_) form_.incoming_.emplace(folder_);
+    file_ = ::open(form_.incoming_->log(name).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
+                   S_IRUSR | S_IWUSR);
     if (file_ < 0) return refuse(507, "The file cannot be stored; the disk of the service may be full.");
     form_.files_.push_back(name);
     return true;

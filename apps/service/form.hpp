@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/service/service_folder.hpp"
+#include "apps/service/incoming.hpp"
 
 namespace httplib {
 class ContentReader;
@@ -15,26 +17,21 @@ struct Request;
 
 namespace faultline {
 
-/// What a form of a page sent. Its files lie in an incoming folder of the service, in the subfolder `logs`,
-/// until the folder is taken in; else they are removed with the object.
+/// What a form of a page sent.
 class SentForm {
  public:
-  SentForm() = default;
-  ~SentForm();
-  SentForm(const SentForm&) = delete;
-  SentForm& operator=(const SentForm&) = delete;
-
   /// Value of a field; empty if it was not sent.
   std::string field(const std::string& name) const;
-  /// Folder of the files; empty without files. Whoever takes it in calls forget_folder().
-  const std::string& folder() const { return folder_; }
-  void forget_folder() { folder_.clear(); }
+  /// Names of the files.
   const std::vector<std::string>& files() const { return files_; }
+  /// Where the files are, as logs; only if there are files.
+  Incoming& incoming() { return *incoming_; }
+  const Incoming& incoming() const { return *incoming_; }
 
  private:
   friend class FormReader;
   std::map<std::string, std::string> fields_;
-  std::string folder_;
+  std::optional<Incoming> incoming_;
   std::vector<std::string> files_;
 };
 
@@ -55,6 +52,9 @@ struct FormLimits {
 FormAnswer read_form(const httplib::Request& request, const httplib::ContentReader& reader,
                      const ServiceFolder& folder, const FormLimits& limits,
                      const std::function<bool(const SentForm&)>& allows, SentForm& form);
+
+/// The number that a text of one to twelve digits is; nothing for other text.
+std::optional<std::int64_t> whole_number(const std::string& text);
 
 /// Returns a name for a file of this foreign name that is safe in a folder and on a command line, with the
 /// same ending.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -21,15 +21,8 @@ using httplib::ContentReader;
 using httplib::Request;
 using httplib::Response;
 
-namespace fs = std::filesystem;
-
 constexpr const char* kModelEnding = ".model";
 constexpr std::size_t kLongestStatement = 2000;  // bytes of what was done, and of a name
-
-std::int64_t now_s() {
-  return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 /// Sends the browser to another page: with 303, so that loading again does not send the form again.
 void send_to(const Request& request, Response& response, const std::string& address) {
@@ -39,37 +32,10 @@ void send_to(const Request& request, Response& response, const std::string& addr
     response.set_redirect(address, 303);
 }
 
-std::int64_t number_in(const std::string& text) {
-  constexpr std::size_t kMostDigits = 12;
-  const bool is_number = !text.empty() && text.size() <= kMostDigits &&
-                         text.find_first_not_of("0123456789") == std::string::npos;
-  return is_number ? std::stoll(text) : 0;
+/// Number of a job or a fault in a field; 0, which none has, for other text.
+std::int64_t number_of(const SentForm& form, const char* field) {
+  return whole_number(form.field(field)).value_or(0);
 }
-
-/// A folder for a job without files of its own.
-class EmptyIncoming {
- public:
-  explicit EmptyIncoming(const ServiceFolder& folder) : path_(folder.new_incoming()) {
-    fs::create_directory(path_ + "/logs");
-  }
-  ~EmptyIncoming() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  EmptyIncoming(const EmptyIncoming&) = delete;
-  EmptyIncoming& operator=(const EmptyIncoming&) = delete;
-
-  const std::string& path() const { return path_; }
-  Job add_to(JobQueue& queue, JobRequest request) {
-    request.received_s = now_s();
-    Job job = queue.add(path_, request);
-    path_.clear();
-    return job;
-  }
-
- private:
-  std::string path_;
-};
 
 /// One job for each log.
 std::string diagnose_logs(ServiceState& state, const SentForm& form) {
@@ -78,8 +44,8 @@ std::string diagnose_logs(ServiceState& state, const SentForm& form) {
   if (form.files().empty()) throw Error(ErrorCode::usage, "log", "choose at least one log");
   std::int64_t last = 0;
   for (const std::string& log : form.files()) {
-    EmptyIncoming incoming(state.folder);
-    fs::rename(form.folder() + "/logs/" + log, incoming.path() + "/logs/" + log);
+    Incoming incoming(state.folder);
+    std::filesystem::rename(form.incoming().log(log), incoming.log(log));
     last = incoming.add_to(state.queue, {JobKind::diagnose, model, {log}, {}, 0}).id;
   }
   return form.files().size() == 1 ? job_address(last) : robot_address(model);
@@ -87,9 +53,7 @@ std::string diagnose_logs(ServiceState& state, const SentForm& form) {
 
 std::string suggest_robot_file(ServiceState& state, SentForm& form) {
   if (form.files().empty()) throw Error(ErrorCode::usage, "log", "choose at least one log");
-  const Job job = state.queue.add(form.folder(), {JobKind::suggest, "", form.files(), {}, now_s()});
-  form.forget_folder();
-  return job_address(job.id);
+  return job_address(form.incoming().add_to(state.queue, {JobKind::suggest, "", form.files(), {}, 0}).id);
 }
 
 std::string learn_robot(ServiceState& state, const SentForm& form) {
@@ -99,17 +63,17 @@ std::string learn_robot(ServiceState& state, const SentForm& form) {
     throw Error(ErrorCode::usage, "name", "use 1 to 60 letters, digits, - and _");
   if (!state.folder.is_free_name(model))
     throw Error(ErrorCode::usage, "name", "a robot or a case base of this name exists; choose another name");
-  EmptyIncoming incoming(state.folder);
-  write_file(incoming.path() + "/" + kSuggestedRobot, form.field("robot"));
+  Incoming incoming(state.folder);
+  write_file(incoming.file(kSuggestedRobot), form.field("robot"));
   return job_address(
-      incoming.add_to(state.queue, {JobKind::learn, model, {}, {number_in(form.field("of"))}, 0}).id);
+      incoming.add_to(state.queue, {JobKind::learn, model, {}, {number_of(form, "of")}, 0}).id);
 }
 
 std::string compare_logs(ServiceState& state, const SentForm& form) {
   const std::string model = form.field("model");
   if (!state.folder.has_model(model)) throw Error(ErrorCode::usage, "robot", "choose a robot of the list");
-  const std::int64_t first = number_in(form.field("first")), second = number_in(form.field("second"));
-  EmptyIncoming incoming(state.folder);
+  const std::int64_t first = number_of(form, "first"), second = number_of(form, "second");
+  Incoming incoming(state.folder);
   return job_address(incoming.add_to(state.queue, {JobKind::compare, model, {}, {first, second}, 0}).id);
 }
 
@@ -155,7 +119,7 @@ std::string delete_job(ServiceState& state, const Request& request, SentForm&) {
 
 std::string record_run(ServiceState& state, const Request& request, SentForm&) {
   const Job job = named_job(state, request);
-  EmptyIncoming incoming(state.folder);
+  Incoming incoming(state.folder);
   return job_address(incoming.add_to(state.queue, {JobKind::record, job.request.model, {}, {job.id}, 0}).id);
 }
 
@@ -163,16 +127,15 @@ std::string store_case(ServiceState& state, const Request& request, SentForm& fo
   const Job job = named_job(state, request);
   if (job.request.kind != JobKind::diagnose || job.outcome.state != JobState::done)
     throw Error(ErrorCode::usage, "the job", "has no diagnosis");
-  const std::string joint = form.field("joint");
-  if (joint.empty() || joint.find_first_not_of("0123456789") != std::string::npos)
-    throw Error(ErrorCode::usage, "joint", "choose a joint of the list, or none");
+  const auto joint = whole_number(form.field("joint"));
+  if (!joint) throw Error(ErrorCode::usage, "joint", "choose a joint of the list, or none");
   for (const char* field : {"done", "by"})
     if (form.field(field).size() > kLongestStatement)
       throw Error(ErrorCode::usage, field, fmt::format("write at most {} bytes", kLongestStatement));
   CaseStatement statement;
-  statement.fault_id = static_cast<int>(number_in(form.field("fault_id")));
+  statement.fault_id = static_cast<int>(number_of(form, "fault_id"));
   statement.kind = form.field("kind");
-  statement.joint_number = static_cast<int>(number_in(joint));
+  statement.joint_number = static_cast<int>(*joint);
   statement.what_was_done = form.field("done");
   statement.person = form.field("by");
   state_case(state.folder.model_path(job.request.model), state.folder.job_path(job.id), statement);
@@ -216,7 +179,15 @@ void log_in(ServiceState& state, const Request& request, Response& response, con
   response.set_redirect("/", 303);
 }
 
-std::string log_out(ServiceState&, const Request&, SentForm&) { return "/login"; }
+/// Ends the session, which the form has shown to be one of this service.
+std::string log_out(ServiceState& state, const Request& request, SentForm&) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  const std::string session = sent_session(state, request);
+  state.folder.add_ended_session(session);
+  state.access.end_session(session);
+  return "/login";
+}
 
 }  // namespace
 

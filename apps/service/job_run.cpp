@@ -5,10 +5,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "apps/commands.hpp"
 #include "apps/service/child.hpp"
+#include "apps/service/report_facts.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/core/number_text.hpp"
@@ -93,23 +93,19 @@ std::string first_line(const std::string& text) {
 }
 
 /// What a diagnosis found, such as "joint 1 is locked, from 8.440 s on, and 1 more fault".
-std::string found_sentence(const nlohmann::json& report) {
-  const auto& faults = report.at("faults");
-  if (faults.empty()) return report.at("verdict_reason").get<std::string>();
-  const auto& first = faults.at(0);
-  const FaultLabel label{fault_kind_from(first.at("kind").get<std::string>()),
-                         Joint::numbered(first.at("joint").is_null() ? 0 : first.at("joint").get<int>())};
-  const auto& period = report.at("log").at("sample_period_s");
+std::string found_sentence(const ReportFacts& report) {
+  if (report.faults.empty()) return report.verdict_reason;
+  const ReportedFault& first = report.faults.front();
   std::string text =
-      plain_words(label) + ", from " +
-      time_text(first.at("onset_s").get<double>(), period.is_null() ? 0.0 : period.get<double>()) + " on";
-  if (faults.size() > 1) text += ", and " + counted(static_cast<long long>(faults.size()) - 1, "more fault");
+      plain_words(first.label) + ", from " + time_text(first.onset_s, report.sample_period_s) + " on";
+  if (report.faults.size() > 1)
+    text += ", and " + counted(static_cast<long long>(report.faults.size()) - 1, "more fault");
   return text;
 }
 
 JobOutcome diagnosis_outcome(const std::string& folder) {
-  const auto report = nlohmann::json::parse(read_file(folder + kReportJson));
-  return {JobState::done, report.at("verdict").get<std::string>(), found_sentence(report)};
+  const ReportFacts report = report_facts(read_file(folder + kReportJson));
+  return {JobState::done, report.verdict, found_sentence(report)};
 }
 
 JobOutcome done(const ServiceFolder& folder, const Job& job) {

@@ -57,11 +57,9 @@ void show_robot(ServiceState& state, const Request& request, Response& response)
   if (!state.folder.has_model(model))
     return send_refusal(state, request, response, 404, "There is no robot of this name.");
   const std::vector<Job> runs = runs_of(state.queue.all(), model);
-  const std::string page = request.get_param_value("page");
-  const bool is_number =
-      !page.empty() && page.size() < 7 && page.find_first_not_of("0123456789") == std::string::npos;
+  const auto page = whole_number(request.get_param_value("page"));
   send_page(response, robot_page(context_for(state, request, response), {model, runs},
-                                 state.condition.of(runs), is_number ? std::stoul(page) : 1));
+                                 state.condition.of(runs), static_cast<std::size_t>(page.value_or(1))));
 }
 
 std::string text_if_there(const std::string& path) {

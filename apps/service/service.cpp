@@ -112,7 +112,9 @@ ServiceState::ServiceState(const ServiceOptions& given, const std::string& token
       access(folder.secret(), token.empty() ? "" : token, host_names(given)),
       writes(kMostWrites, kWritesWithin_s),
       logins(kMostLogins, kLoginsWithin_s),
-      condition(folder) {}
+      condition(folder) {
+  for (const std::string& session : folder.ended_sessions()) access.end_session(session);
+}
 
 void set_session(const ServiceState& state, Response& response, const std::string& session) {
   response.set_header(

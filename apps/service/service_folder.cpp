@@ -13,6 +13,7 @@
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
@@ -239,6 +240,19 @@ std::string ServiceFolder::token_sha256() const {
 
 void ServiceFolder::set_token(const std::string& token) const {
   write_private_file(state_ + "/token.sha256", sha256_hex(token) + "\n");
+}
+
+std::vector<std::string> ServiceFolder::ended_sessions() const {
+  std::vector<std::string> sessions;
+  std::ifstream lines(state_ + "/ended_sessions");
+  for (std::string line; std::getline(lines, line);) sessions.push_back(line);
+  return sessions;
+}
+
+void ServiceFolder::add_ended_session(const std::string& session) const {
+  std::string text;
+  for (const std::string& one : ended_sessions()) text += one + "\n";
+  write_private_file(state_ + "/ended_sessions", text + session + "\n");
 }
 
 }  // namespace faultline

@@ -53,6 +53,10 @@ class ServiceFolder {
   /// SHA-256 of the token that opens the service from other machines; empty before set_token().
   std::string token_sha256() const;
   void set_token(const std::string& token) const;
+  /// Sessions that users have ended; they stay ended over restarts.
+  std::vector<std::string> ended_sessions() const;
+  /// Throws Error(output).
+  void add_ended_session(const std::string& session) const;
 
  private:
   std::string folder_, state_, secret_;

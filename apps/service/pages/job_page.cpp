@@ -2,17 +2,15 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "apps/service/pages/pages.hpp"
+#include "apps/service/report_facts.hpp"
 #include "lib/core/number_text.hpp"
 #include "lib/core/text.hpp"
 #include "lib/fault/fault_catalogue.hpp"
 
 namespace faultline {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string button_form(const PageContext& context, const Job& job, const char* action, const char* words) {
   return fmt::format("<form method=\"post\" action=\"{}/{}\">{}<button>{}</button></form>\n",
@@ -32,12 +30,12 @@ std::string progress_part(const PageContext& context, const Job& job, std::size_
          "<div class=\"actions\">" + button_form(context, job, "cancel", "Cancel") + "</div>\n";
 }
 
-std::string kind_options(const std::string& chosen) {
+std::string kind_options(FaultKind chosen) {
   std::string text;
   for (int i = 1; i < kFaultKinds; ++i) {
     const auto kind = static_cast<FaultKind>(i);
     text += fmt::format("<option value=\"{}\"{}>{}</option>\n", to_string(kind),
-                        chosen == to_string(kind) ? " selected" : "", describe(kind).heading);
+                        chosen == kind ? " selected" : "", describe(kind).heading);
   }
   return text;
 }
@@ -54,8 +52,8 @@ std::string labelled(const std::string& id, const char* label, const std::string
 }
 
 /// The question what a fault really was; the answer becomes a case.
-std::string case_form(const PageContext& context, const Job& job, const Json& fault, int joints) {
-  const int id = fault.at("id");
+std::string case_form(const PageContext& context, const Job& job, const ReportedFault& fault, int joints) {
+  const int id = fault.id;
   const auto name = [id](const char* field) { return fmt::format("{}-{}", field, id); };
   const auto select = [&](const char* field, const std::string& options) {
     return fmt::format("<select id=\"{}\" name=\"{}\">\n{}</select>", name(field), field, options);
@@ -63,37 +61,28 @@ std::string case_form(const PageContext& context, const Job& job, const Json& fa
   const auto input = [&](const char* field) {
     return fmt::format("<input id=\"{}\" name=\"{}\" maxlength=\"500\">", name(field), field);
   };
-  const int joint = fault.at("joint").is_null() ? 0 : fault.at("joint").get<int>();
   return fmt::format(
              "<details><summary>What was it?</summary>\n<form class=\"case\" method=\"post\" action=\"{}/case\">\n",
              job_address(job.id)) +
          hidden_field("key", context.form_key) + hidden_field("fault_id", std::to_string(id)) +
          "<div class=\"row\">" +
-         labelled(name("kind"), "Fault", select("kind", kind_options(fault.at("kind")))) +
-         labelled(name("joint"), "Joint", select("joint", joint_options(joints, joint))) +
+         labelled(name("kind"), "Fault", select("kind", kind_options(fault.label.kind))) +
+         labelled(name("joint"), "Joint",
+                  select("joint", joint_options(joints, fault.label.joint.number()))) +
          labelled(name("done"), "What was done", input("done")) +
          labelled(name("by"), "By whom", input("by")) +
          "</div>\n<p><button class=\"main\">Store as a case</button></p>\n</form></details>\n";
 }
 
-FaultLabel label_of(const Json& fault) {
-  return {fault_kind_from(fault.at("kind")),
-          Joint::numbered(fault.at("joint").is_null() ? 0 : fault.at("joint").get<int>())};
-}
-
-std::string fault_part(const PageContext& context, const Job& job, const Json& report, const Json& fault,
-                       const std::vector<StatedCase>& stated) {
-  const auto period = report.at("log").at("sample_period_s");
-  const double period_s = period.is_null() ? 0.0 : period.get<double>();
+std::string fault_part(const PageContext& context, const Job& job, const ReportFacts& report,
+                       const ReportedFault& fault, const std::vector<StatedCase>& stated) {
   std::string text = fmt::format(
       "<section class=\"finding\"><h2>Fault {}: {}</h2>\n<p>From {} on, confidence {}.</p>\n<p>{}</p>\n",
-      fault.at("id").get<int>(), safe_text(plain_words(label_of(fault))),
-      time_text(fault.at("onset_s").get<double>(), period_s),
-      percent_text(fault.at("confidence").get<double>()),
-      safe_text(fault.at("next_check").get<std::string>()));
+      fault.id, safe_text(plain_words(fault.label)), time_text(fault.onset_s, report.sample_period_s),
+      percent_text(fault.confidence), safe_text(fault.next_check));
   for (const StatedCase& one : stated)
-    if (one.fault_id == fault.at("id")) text += fmt::format("<p>Stored: {}</p>\n", safe_text(one.text));
-  return text + case_form(context, job, fault, report.at("log").at("joints")) + "</section>\n";
+    if (one.fault_id == fault.id) text += fmt::format("<p>Stored: {}</p>\n", safe_text(one.text));
+  return text + case_form(context, job, fault, report.joints) + "</section>\n";
 }
 
 std::string recording_action(const PageContext& context, const Job& job, const std::vector<Job>& recordings) {
@@ -108,13 +97,14 @@ std::string recording_action(const PageContext& context, const Job& job, const s
 }
 
 std::string diagnosis_part(const PageContext& context, const Job& job, const JobFiles& files) {
-  const Json report = Json::parse(files.report);
+  const ReportFacts report = report_facts(files.report);
   std::string text = fmt::format("<p class=\"verdict {0}\">{0}: {1}</p>\n", safe_text(job.outcome.verdict),
                                  safe_text(job.outcome.sentence));
   text += "<div class=\"actions\">" + file_link(job, kReportPage, "Open the report", "button main") +
           file_link(job, kReportJson, "JSON") + recording_action(context, job, files.recordings) +
           file_link(job, "log", "The log") + "</div>\n";
-  for (const Json& fault : report.at("faults")) text += fault_part(context, job, report, fault, files.stated);
+  for (const ReportedFault& fault : report.faults)
+    text += fault_part(context, job, report, fault, files.stated);
   return text;
 }
 

@@ -89,6 +89,13 @@ TEST(ServiceAccess, ADamagedSecretIsRefused) {
   EXPECT_NE(run.err.find("is damaged; delete it"), std::string::npos) << run.err;
 }
 
+TEST(ServiceForms, OnlyDigitsAreAWholeNumber) {
+  EXPECT_EQ(whole_number("0042"), 42);
+  EXPECT_EQ(whole_number("999999999999"), 999999999999);
+  for (const char* text : {"", "-1", "+1", "1.0", " 1", "1e3", "0x1", "1000000000000"})
+    EXPECT_EQ(whole_number(text), std::nullopt) << text;
+}
+
 TEST(ServiceAccess, NoAddressLeadsToAnotherFile) {
   const ServedFolder service;
   Visitor visitor(service);
@@ -164,6 +171,13 @@ TEST(ServiceAccess, OtherMachinesNeedTheToken) {
   service.start();
   EXPECT_EQ(service.messages().find(token), std::string::npos) << "the token is shown once";
   EXPECT_EQ(visitor.get("/").status, 200) << "a session outlives the service";
+  EXPECT_EQ(visitor.post("/logout", {{"key", visitor.key()}}).status, 303);
+  for (int start = 0; start < 2; ++start) {
+    visitor.cookie = set.substr(0, set.find(';'));
+    EXPECT_EQ(visitor.get("/").status, 303) << "a copy of the cookie of a session that ended";
+    service.end(SIGTERM);
+    service.start();
+  }
 }
 
 TEST(ServiceAccess, GuessingTheTokenIsSlowedDown) {
