@@ -28,7 +28,8 @@ class BatchFolder {
   bool has(const std::string& name) const;
   std::string read(const std::string& name) const;
   void write(const std::string& name, std::string_view bytes) const;
-  /// The same for one of many files, which sync() brings to the disk at once: a kill can leave it half written.
+  /// The same for one of many files, which sync() brings to the disk at once: a kill can leave it half
+  /// written.
   void write_unsynced(const std::string& name, std::string_view bytes) const;
   void sync() const;
   std::string journal() const { return file(".batch/journal"); }
