@@ -14,6 +14,16 @@ const HistoryRecord& ConditionView::record(std::int64_t id) {
   return records_[id] = history_record(read_file(path), path);
 }
 
+void ConditionView::note(const Job& job) {
+  if (job.request.kind != JobKind::diagnose || job.outcome.state != JobState::done) return;
+  const std::lock_guard lock(mutex_);
+  try {
+    record(job.id);
+  } catch (const Error&) {
+    return;  // deleted in the meantime
+  }
+}
+
 std::string ConditionView::of(const std::vector<Job>& runs) {
   const std::lock_guard lock(mutex_);
   std::map<std::string, std::size_t> by_log;  // a log that was diagnosed twice counts once, as the latest

@@ -165,6 +165,7 @@ void JobQueue::work() {
     if (ends_with_the_service) return;
     try {
       finish(job->id, outcome);
+      if (const auto ended = find(job->id); ended && limits_.ended) limits_.ended(*ended);
     } catch (
         const Error& error) {  // a full disk: the result is shown, and the job runs again at the next start
       const std::lock_guard lock(mutex_);

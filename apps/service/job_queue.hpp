@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -19,6 +20,8 @@ struct QueueLimits {
   int workers = 0;                  ///< jobs at the same time; 0: one a core
   JobProcess process{};             ///< of each job
   std::size_t most_waiting = 1000;  ///< jobs
+  /// Called by a worker when a job has ended, if it is set.
+  std::function<void(const Job&)> ended{};
 };
 
 /// The jobs of a service. Each runs as a command of this program in a process of its own. A job that add()

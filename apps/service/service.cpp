@@ -98,6 +98,11 @@ void set_up(httplib::Server& server, ServiceState& state) {
   add_form_routes(server, state);
 }
 
+QueueLimits with_ended(QueueLimits limits, ConditionView& condition) {
+  limits.ended = [&condition](const Job& job) { condition.note(job); };
+  return limits;
+}
+
 }  // namespace
 
 std::string machine_name() {
@@ -108,11 +113,11 @@ std::string machine_name() {
 ServiceState::ServiceState(const ServiceOptions& given, const std::string& token)
     : options(given),
       folder(given.folder),
-      queue(folder, given.queue),
+      condition(folder),
+      queue(folder, with_ended(given.queue, condition)),
       access(folder.secret(), token.empty() ? "" : token, host_names(given)),
       writes(kMostWrites, kWritesWithin_s),
-      logins(kMostLogins, kLoginsWithin_s),
-      condition(folder) {
+      logins(kMostLogins, kLoginsWithin_s) {
   for (const std::string& session : folder.ended_sessions()) access.end_session(session);
 }
 

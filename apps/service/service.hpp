@@ -40,10 +40,10 @@ struct ServiceState {
 
   ServiceOptions options;
   ServiceFolder folder;
+  ConditionView condition;
   JobQueue queue;
   Access access;
   RateLimit writes, logins;
-  ConditionView condition;
 };
 
 /// Gives a session to the browser; an empty one ends it.
