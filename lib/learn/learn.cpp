@@ -203,6 +203,16 @@ Learned learn_tracking_alone(std::span<LogSource* const> healthy, std::span<cons
   return out;
 }
 
+/// The same callback with shares that never fall: what is learned again, without a log that contradicts the
+/// others, does not take the share back.
+Progress never_falling(const Progress& progress) {
+  if (!progress) return {};
+  return [progress, highest = 0.0](const std::string& what, double share) mutable {
+    highest = std::max(highest, share);
+    progress(what, highest);
+  };
+}
+
 }  // namespace
 
 void LearnOptions::check() const {
@@ -223,8 +233,9 @@ void LearnOptions::check() const {
 }
 
 Learned learn(std::span<LogSource* const> healthy, std::span<const LabelledLog> labelled, const Robot& robot,
-              const LearnOptions& options, const Progress& progress) {
+              const LearnOptions& options, const Progress& reported) {
   options.check();
+  const Progress progress = never_falling(reported);
   std::deque<EmptyRowsSource> filled;  // an empty row for each that was lost, as diagnose() reads them
   for (LogSource* log : healthy) filled.emplace_back(*log);
   const std::vector<LogSource*> filled_logs = pointers(filled);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <deque>
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.hpp"
@@ -69,6 +71,25 @@ TEST(LearnDiagnose, RoundTripAndSegmentBordersChangeNoByte) {
     for (const int rows : {1, 7, 64})
       EXPECT_EQ(whole, render_json(diagnosed(learned, log, rows, {.mode = mode}))) << rows;
   }
+}
+
+TEST(LearnDiagnose, TheShareOfProgressNeverFallsAlsoWhenALogIsLeftOut) {
+  const double forever = std::numeric_limits<double>::infinity();
+  std::deque<MemorySource> logs;
+  std::vector<LogSource*> sources;
+  for (const bool is_weak : {false, true, false}) {
+    SimulationSpec spec = small_run(12.0);
+    if (is_weak) spec.faults = {{FaultKind::torque_loss, 1_joint, 7.0, forever, 0.4, 0.0}};
+    const auto seed = 50 + static_cast<std::uint64_t>(logs.size());
+    sources.push_back(
+        &logs.emplace_back(simulate(small_robot(), spec, seed).log, is_weak ? "weak.csv" : "a.csv"));
+  }
+  std::vector<double> shares;
+  const Learned learned = learn(sources, {}, unknown_small_robot(), quick_learning(),
+                                [&](const std::string&, double share) { shares.push_back(share); });
+  EXPECT_NE(learned.identification.issues.find("suspicious_log_2"), nullptr);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_GT(shares.size(), 10u);
 }
 
 }  // namespace
