@@ -48,6 +48,14 @@ void remove_file(const fs::path& file) {
                 "of an earlier run cannot be removed (" + error.message() + ")");
 }
 
+/// As fail_to_write(), by the present errno.
+[[noreturn]] void close_and_fail(int file, const std::string& path, const char* doing) {
+  const int reason = errno;
+  ::close(file);
+  errno = reason;
+  fail_to_write(path, doing);
+}
+
 }  // namespace
 
 bool BatchFolder::has(const std::string& name) const { return has_inner_file(path_, name); }
@@ -63,21 +71,21 @@ void BatchFolder::write_unsynced(const std::string& name, std::string_view bytes
   prepare_inner_file(path_, name);
   ::unlink(path.c_str());  // other names of a hard link keep their content
   const int out = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  bool is_whole = out >= 0;
-  while (is_whole && !bytes.empty()) {
+  if (out < 0) fail_to_write(path, "created");
+  while (!bytes.empty()) {
     const ssize_t written = ::write(out, bytes.data(), bytes.size());
-    is_whole = written > 0 || (written < 0 && errno == EINTR);
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) close_and_fail(out, path, "written");
+    bytes.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (!is_whole) fail_to_write(path, "written");
-  ::close(out);
+  if (::close(out) != 0) fail_to_write(path, "written");
 }
 
 void BatchFolder::sync() const {
   const int folder = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool is_done = folder >= 0 && ::syncfs(folder) == 0;
+  if (folder < 0) fail_to_write(path_, "opened");
+  if (::syncfs(folder) != 0) close_and_fail(folder, path_, "brought to the disk");
   ::close(folder);
-  if (!is_done) fail_to_write(path_, "brought to the disk");
 }
 
 bool is_batch_folder(const std::string& folder) {

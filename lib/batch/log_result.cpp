@@ -141,10 +141,9 @@ EarlierResults::EarlierResults(const BatchFolder& folder)
   for (const auto& [key, entry] : entries_) logs_.insert(entry.row.log);
 }
 
-const JournalEntry* EarlierResults::find(const BatchLog& log, const std::string& settings,
-                                         KnownLogs& known) const {
+const JournalEntry* EarlierResults::find(const BatchLog& log, const std::vector<FileStamp>& stamps,
+                                         const std::string& settings, KnownLogs& known) const {
   if (!logs_.count(valid_utf8(log.name))) return nullptr;
-  const std::vector<FileStamp> stamps = stamps_of(files_of(log));
   const KnownLog* before = known.find(valid_utf8(log.name));
   if (before && before->files != stamps) before = nullptr;
   const auto found = entries_.find(result_key(settings, log, before ? before->sha256 : sha256_of_log(log)));

@@ -46,11 +46,12 @@ class EarlierResults {
  public:
   explicit EarlierResults(const BatchFolder& folder);
 
-  /// `settings`: settings_of() this run and the log's model. The entry of the log as it is now, when its
-  /// result files are there as they were written; null else. The log is read, for its hash, only when one of
-  /// its name was done and its files are not those that `known` describes; so are its result files. Throws
-  /// Error(input) when it cannot be.
-  const JournalEntry* find(const BatchLog& log, const std::string& settings, KnownLogs& known) const;
+  /// `stamps`: of the log's files now; `settings`: settings_of() this run and the log's model. The entry of
+  /// the log as it is now, when its result files are there as they were written; null else. The log is read,
+  /// for its hash, only when one of its name was done and its files are not those that `known` describes; so
+  /// are its result files. Throws Error(input) when it cannot be.
+  const JournalEntry* find(const BatchLog& log, const std::vector<FileStamp>& stamps,
+                           const std::string& settings, KnownLogs& known) const;
 
  private:
   const BatchFolder& folder_;

@@ -95,7 +95,7 @@ class Batch {
     };
     try {
       refuse_special_file(log.path);
-      if (const JournalEntry* done = before_.find(log, settings, known_)) {
+      if (const JournalEntry* done = before_.find(log, before, settings, known_)) {
         entry = *done;
         entry.position = position;
         return entry;

@@ -103,8 +103,9 @@ TEST_F(ForeignResults, APositionOutsideOfTheListIsRefused) {
 }
 
 TEST_F(ForeignResults, LinksAndPipesInPlaceOfTheirFilesAreNotOpened) {
-  for (const std::string& name : {std::string(".batch/journal"), std::string(".batch/finished.json"),
-                                  std::string(".batch/lock"), "logs/" + entry_.row.result + ".json"}) {
+  for (const std::string& name :
+       {std::string(".batch/journal"), std::string(".batch/finished.json"), std::string(".batch/lock"),
+        std::string(".batch/known_logs"), "logs/" + entry_.row.result + ".json"}) {
     const std::string path = part() + "/" + name;
     fs::remove(path);
     fs::create_symlink(settings(), path);
@@ -120,7 +121,7 @@ TEST_F(ForeignResults, LinksAndPipesInPlaceOfTheirFilesAreNotOpened) {
 /// Before anything is written.
 TEST_F(ForeignResults, NothingIsWrittenThroughLinksInAFolderOfResults) {
   for (const char* name : {"index.csv", "index.ndjson", "index.html", "summary.json", ".batch/journal",
-                           ".batch/finished.json", ".batch/lock"}) {
+                           ".batch/finished.json", ".batch/lock", ".batch/known_logs"}) {
     fs::remove_all(out());
     fs::create_directories(out() + "/.batch");
     fs::create_symlink(settings(), out() + "/" + name);

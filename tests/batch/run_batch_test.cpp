@@ -148,7 +148,7 @@ class WithEarlierResult : public testing::Test {
   /// What a new run into the folder finds.
   bool finds(const BatchLog& log, const std::string& settings = "s") {
     KnownLogs known(out_.known_logs());
-    return EarlierResults(out_).find(log, settings, known) != nullptr;
+    return EarlierResults(out_).find(log, stamps_of(files_of(log)), settings, known) != nullptr;
   }
 
   TemporaryFolder folder_;
@@ -190,7 +190,7 @@ TEST_F(WithEarlierResult, ALogWhoseFileIsUnchangedIsNotReadAgain) {
 TEST_F(WithEarlierResult, TheRunNotesASettledLogForTheNextOne) {
   while (!are_settled({stamp_of(log_.path)})) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   KnownLogs known(out_.known_logs());
-  EXPECT_NE(EarlierResults(out_).find(log_, "s", known), nullptr);
+  EXPECT_NE(EarlierResults(out_).find(log_, stamps_of(files_of(log_)), "s", known), nullptr);
   const KnownLogs next(out_.known_logs());
   ASSERT_NE(next.find(log_.name), nullptr);
   EXPECT_EQ(next.find(log_.name)->sha256, sha256_hex("x"));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "lib/batch/batch_row.hpp"
 #include "lib/core/number_text.hpp"
@@ -104,21 +105,25 @@ HtmlRow counts_head(const char* what) {
           "faults", "hours", "faults per hour", "median residual", "largest"};
 }
 
+/// For the choice among many folders: the largest residual, below all where no log was judged.
+double rank_of(const BatchCounts& counts) {
+  return std::isfinite(counts.largest_residual) ? counts.largest_residual : -1.0;
+}
+
 /// Of many folders those with the largest residuals, in the order of their names.
 std::string folder_table(const BatchSummary& summary) {
-  std::vector<double> largest;
-  for (const auto& [folder, counts] : summary.folders) largest.push_back(counts.largest_residual);
-  const bool is_long = largest.size() > kShownFolders;
-  std::sort(largest.begin(), largest.end(), [](double a, double b) { return a > b || std::isnan(b); });
-  const double least = is_long ? largest[kShownFolders - 1] : 0.0;
+  std::vector<double> ranks;
+  for (const auto& [folder, counts] : summary.folders) ranks.push_back(rank_of(counts));
+  const std::size_t folders = ranks.size(), shown = std::min(folders, kShownFolders);
+  std::sort(ranks.begin(), ranks.end(), std::greater<>());
   std::vector<HtmlRow> rows;
   for (const auto& [folder, counts] : summary.folders)
-    if (!is_long || (counts.largest_residual >= least && rows.size() < kShownFolders))
+    if (rows.size() < shown && rank_of(counts) >= ranks[shown - 1])
       rows.push_back(counts_row(folder.empty() ? "(given files)" : folder, counts));
   std::string text = "<h2>By folder</h2>\n";
-  if (is_long)
+  if (shown < folders)
     text += fmt::format("<p>The {} of {} folders with the largest residuals; summary.json has all.</p>\n",
-                        rows.size(), largest.size());
+                        shown, folders);
   return text + scrolling("Counts by folder", html_table(counts_head("folder"), rows));
 }
 

@@ -102,7 +102,8 @@
       await load();
       why = 'the others are missing in this file: copy it again';
     } catch (error) {
-      why = `this browser cannot unpack the others (${error.message}); index.csv lists all`;
+      why = `the others cannot be unpacked (${error.message}): the file was cut off, or the browser is from before ` +
+        '2023; index.csv lists all';
     }
     startTrends();
   }
