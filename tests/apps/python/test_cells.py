@@ -7,6 +7,7 @@ import numpy
 import faultline
 from faultline import _html
 from read_html import Read
+from small_robots import make_robots, named
 from support import BENCH, LOGS, InFolder, columns, load_model
 
 LOCKED = LOGS / "locked_1.csv"
@@ -42,9 +43,10 @@ class Cells(InFolder):
         self.assertEqual(self.shown(self.model.diagnose(rows)).rows[1][2][:7], "1714557")
 
     def test_what_was_learned_is_a_table_of_simulated_faults(self):
-        learned = faultline.learn(sorted(BENCH.glob("healthy_*.csv")), BENCH / "robot.toml", runs_per_label=2)
+        files, frames = make_robots(self.folder)
+        learned = faultline.learn(named(frames, "cell-1"), files["cell-1"], runs_per_label=2)
         shown = self.shown(learned)
-        self.assertRegex(shown.bold, '^Learned "bench" from 3 logs at 13.7 Hz')
+        self.assertRegex(shown.bold, '^Learned "two joints" from 3 logs at 20 Hz')
         rows = learned.validation.rows
         self.assertEqual([row[0] for row in shown.rows[1:]], [row.kind.replace("_", " ") for row in rows])
         self.assertEqual([row[2] for row in shown.rows[1:]], [str(row.detected) for row in rows])

@@ -10,7 +10,7 @@ import faultline
 from support import BENCH, LOGS, columns, load_model
 
 
-def long_log(repeats=100):
+def long_log(repeats=30):
     """A run over and over again; long enough to be interrupted."""
     run = columns(LOGS / "healthy_quintic.csv")
     step = run["t"][1] - run["t"][0]

@@ -6,29 +6,33 @@ import pickle
 import numpy
 
 import faultline
+from small_robots import HEALTHY as RUNS, OfRobots
 from support import BENCH, InFolder, columns, program, without_origin
 
 HEALTHY = sorted(BENCH.glob("healthy_*.csv"))
 ROBOT = BENCH / "robot.toml"
-LOCKED = BENCH / "locked_1.csv"
-RUNS = 4
+RUNS_PER_LABEL = 2
 
 
-class Learning(InFolder):
+class Learning(OfRobots):
     def test_a_model_learned_from_files_has_the_bytes_of_the_programs(self):
+        robot, bad = self.files["cell-1"], self.made / "cell-1/bad.csv"
+        healthy = [self.made / f"cell-1/{run}.csv" for run in RUNS]
         mine, theirs = self.folder / "mine.json", self.folder / "theirs.json"
         labels = self.folder / "labels.csv"
-        labels.write_text(f"file,fault,joint,onset_s\n{LOCKED},locked,1,8.4375\n")
-        options = ("--robot", ROBOT, "--labels", labels, "--runs-per-label", RUNS)
-        json = program("learn", *HEALTHY, LOCKED, *options, "-o", theirs, "--json", "-")
-        label = ("locked", numpy.int64(1), numpy.float32(8.4375))
-        learned = faultline.learn([*HEALTHY, LOCKED], ROBOT, output=mine, labels={LOCKED: label}, runs_per_label=RUNS)
+        labels.write_text(f"file,fault,joint,onset_s\n{bad},locked,1,5.0\n")
+        options = ("--robot", robot, "--labels", labels, "--runs-per-label", RUNS_PER_LABEL)
+        json = program("learn", *healthy, bad, *options, "-o", theirs, "--json", "-")
+        label = ("locked", numpy.int64(1), numpy.float32(5.0))
+        learned = faultline.learn(
+            [*healthy, bad], robot, output=mine, labels={bad: label}, runs_per_label=RUNS_PER_LABEL
+        )
         self.assertEqual(mine.read_bytes(), theirs.read_bytes())
         self.assertEqual(learned.to_json().encode(), json)
         self.assertEqual(learned.model.to_json().encode(), theirs.read_bytes())
-        self.assertIn('Learned "bench"', learned.text())
+        self.assertIn('Learned "two joints"', learned.text())
         found = set()
-        for log in (BENCH / name for name in ("healthy_2.csv", "torque_loss_1.csv", "stuck_encoder_3.csv")):
+        for log in (healthy[1], bad):
             diagnosis = learned.model.diagnose(log)
             self.assertEqual(
                 diagnosis.to_json().encode(), program("diagnose", log, "--model", theirs, "--json", "-")
@@ -38,18 +42,17 @@ class Learning(InFolder):
 
         self.assertEqual(
             [(source.path, source.fault) for source in learned.sources],
-            [(log.name, "none") for log in HEALTHY] + [("locked_1.csv", "locked")],
+            [(log.name, "none") for log in healthy] + [("bad.csv", "locked")],
         )
 
-        frames = [columns(log) for log in (*HEALTHY, LOCKED)]
-        in_memory = faultline.learn(frames, ROBOT, labels={"frame 4": label}, runs_per_label=RUNS)
-        log = BENCH / "torque_loss_1.csv"
-        of_file, of_frames = (without_origin(m.model.diagnose(log)) for m in (learned, in_memory))
-        named = json_text.dumps(of_frames["faults"]).replace("frame 4", LOCKED.name)  # it may be a precedent
+        frames = [columns(log) for log in (*healthy, bad)]
+        in_memory = faultline.learn(frames, robot, labels={"frame 4": label}, runs_per_label=RUNS_PER_LABEL)
+        of_file, of_frames = (without_origin(m.model.diagnose(bad)) for m in (learned, in_memory))
+        named = json_text.dumps(of_frames["faults"]).replace("frame 4", bad.name)  # it may be a precedent
         self.assertEqual(json_text.loads(named), of_file["faults"])
         self.expect_file_of(in_memory.model, self.folder / "memory.json")
         again = pickle.loads(pickle.dumps(learned.model))
-        self.assertEqual(again.diagnose(log).to_json(), learned.model.diagnose(log).to_json())
+        self.assertEqual(again.diagnose(bad).to_json(), learned.model.diagnose(bad).to_json())
 
     def expect_file_of(self, model, path):
         """Of a model in memory only."""
@@ -64,8 +67,8 @@ class Learning(InFolder):
             with self.assertRaisesRegex(faultline.UsageError, "save it first"):
                 call()
         model.save(path)
-        self.assertEqual((model.path, model.name), (str(path), "bench"))
-        self.assertEqual(faultline.load_model(path).name, "bench")
+        self.assertEqual((model.path, model.name), (str(path), "two joints"))
+        self.assertEqual(faultline.load_model(path).name, "two joints")
         self.assertEqual(pickle.loads(pickle.dumps(model)).to_json(), path.read_text())
         self.assertTrue(faultline.cases.list(model))
 
