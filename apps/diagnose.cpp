@@ -4,11 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/commands.hpp"
 #include "apps/options.hpp"
+#include "apps/terminal.hpp"
 #include "apps/work/diagnosis_recording.hpp"
 #include "apps/work/file_use.hpp"
 #include "apps/work/robot_log.hpp"
@@ -16,6 +19,7 @@
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/error.hpp"
 #include "lib/log/prefetch.hpp"
+#include "lib/log/transformed/watched_source.hpp"
 #include "lib/model/model_files.hpp"
 #include "lib/report/html/html_report.hpp"
 #include "lib/report/text.hpp"
@@ -89,9 +93,14 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
   DiagnoseOptions options = arguments.options;
   options.stop = stop_question(stop_log(arguments.log, arguments.parts, model.robot.log.recording),
                                model.robot, arguments.moment, arguments.stop);
-  const auto log = prefetched(open_robot_log(arguments.log, model.robot, arguments.parts));
+  std::optional<ProgressBar> bar(std::in_place, color);
+  std::string step = "diagnosing " + arguments.log;
+  const auto log = watched_log(prefetched(open_robot_log(arguments.log, model.robot, arguments.parts)),
+                               [&step, show = bar->callback()](double share) { show(step, share); });
   const Diagnosis diagnosis = diagnose(*log, model, files.cases, options);
+  step = "writing what was found in " + arguments.log;
   const auto tell_diagnosis = [&] {
+    bar.reset();
     TimelineOptions timeline;
     timeline.color = use_color(color, stdout);
     if (!standard_output_is_taken(arguments.reports)) print(render_text(diagnosis, timeline), timeline.color);

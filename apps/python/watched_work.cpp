@@ -6,7 +6,7 @@
 #include <exception>
 #include <thread>
 
-#include "lib/log/transformed/changed_source.hpp"
+#include "lib/log/transformed/watched_source.hpp"
 
 namespace faultline {
 namespace {
@@ -21,24 +21,6 @@ void serve(const py::object& progress, ProgressRelay& watch) {
   const auto reported = watch.take();
   if (reported && !progress.is_none()) progress(reported->first, reported->second);
 }
-
-class InterruptibleSource : public ChangedSource {
- public:
-  InterruptibleSource(std::unique_ptr<LogSource> log, ProgressRelay& watch, bool reports_progress)
-      : ChangedSource(std::move(log)), watch_(watch), reports_progress_(reports_progress) {}
-
-  bool next(Log& segment) override {
-    watch_.check();
-    const bool more = source_.next(segment);
-    const double share = source_.share_read();
-    if (reports_progress_ && std::isfinite(share)) watch_.report("reading " + source_.identity().path, share);
-    return more;
-  }
-
- private:
-  ProgressRelay& watch_;
-  bool reports_progress_;
-};
 
 }  // namespace
 
@@ -94,7 +76,13 @@ void run_with_progress(const py::object& progress, const std::function<void(Prog
 
 std::unique_ptr<LogSource> interruptible(std::unique_ptr<LogSource> log, ProgressRelay& watch,
                                          bool reports_progress) {
-  return std::make_unique<InterruptibleSource>(std::move(log), watch, reports_progress);
+  const std::string what = "reading " + log->identity().path;
+  return watched_log(std::move(log), [&watch, what, reports_progress](double share) {
+    if (reports_progress && std::isfinite(share))
+      watch.report(what, share);
+    else
+      watch.check();
+  });
 }
 
 }  // namespace faultline

@@ -4,6 +4,7 @@
 #include <array>
 #include <condition_variable>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -25,14 +26,16 @@ class PrefetchSource : public LogSource {
     if (!reader_.joinable() && !ended_ && !start_reader()) {
       const bool got = source_->next(segment);
       identity_ = source_->identity();
+      share_ = source_->share_read();
       return got;
     }
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return ready_ > 0 || ended_; });
     if (ready_ > 0) {
       const auto place = static_cast<std::size_t>(taken_ % kSegmentsAhead);
-      std::swap(segment, ring_[place]);
-      std::swap(identity_, identities_[place]);
+      std::swap(segment, ring_[place].segment);
+      std::swap(identity_, ring_[place].identity);
+      share_ = ring_[place].share;
       ++taken_;
       --ready_;
       changed_.notify_all();
@@ -41,6 +44,7 @@ class PrefetchSource : public LogSource {
     lock.unlock();
     if (reader_.joinable()) reader_.join();
     identity_ = source_->identity();
+    share_ = source_->share_read();
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
     return false;
   }
@@ -49,6 +53,7 @@ class PrefetchSource : public LogSource {
     stop();
     source_->rewind();
     identity_ = source_->identity();
+    share_ = source_->share_read();
     taken_ = ready_ = 0;
     ended_ = stopping_ = false;
     failure_ = nullptr;
@@ -56,8 +61,16 @@ class PrefetchSource : public LogSource {
 
   const LogIdentity& identity() const override { return identity_; }
   const Issues& issues() const override { return source_->issues(); }
+  double share_read() const override { return share_; }
 
  private:
+  /// A segment that was read and not handed out, and what was known of the log with it.
+  struct Ahead {
+    Log segment;
+    LogIdentity identity;
+    double share = 0.0;  ///< read
+  };
+
   /// Returns false if no thread can be started.
   bool start_reader() {
     try {
@@ -76,8 +89,12 @@ class PrefetchSource : public LogSource {
         if (stopping_) break;
         lock.unlock();
         const auto place = static_cast<std::size_t>(number % kSegmentsAhead);
-        const bool got = source_->next(ring_[place]);
-        if (got) identities_[place] = source_->identity();
+        Ahead& ahead = ring_[place];
+        const bool got = source_->next(ahead.segment);
+        if (got) {
+          ahead.identity = source_->identity();
+          ahead.share = source_->share_read();
+        }
         lock.lock();
         if (!got) break;
         ++ready_;
@@ -102,13 +119,13 @@ class PrefetchSource : public LogSource {
 
   std::unique_ptr<LogSource> source_;
   LogIdentity identity_;  ///< with the segment handed out last; the reader is ahead of it
+  double share_ = std::numeric_limits<double>::quiet_NaN();  ///< the same
   std::thread reader_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::array<Log, kSegmentsAhead> ring_;
-  std::array<LogIdentity, kSegmentsAhead> identities_;  ///< as the log was known with each segment
-  int taken_ = 0;                                       ///< segments handed out
-  int ready_ = 0;                                       ///< segments read and not handed out
+  std::array<Ahead, kSegmentsAhead> ring_;
+  int taken_ = 0;  ///< segments handed out
+  int ready_ = 0;  ///< segments read and not handed out
   bool ended_ = false;
   bool stopping_ = false;
   std::exception_ptr failure_;
