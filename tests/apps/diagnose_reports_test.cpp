@@ -13,6 +13,8 @@
 namespace faultline {
 namespace {
 
+constexpr double kLong_s = 2000.0;  // of a log that takes longer than the .3 s before a bar is shown
+
 /// A folder with a model, its case base and a log of a fault.
 class DiagnoseReports : public ::testing::Test {
  protected:
@@ -66,6 +68,19 @@ TEST_F(DiagnoseReports, EveryFormatHasItsOption) {
   EXPECT_EQ(diagnose(arguments).status, 1);
   for (const ReportFormat& format : report_formats())
     EXPECT_FALSE(read_file(folder_.file(format.name)).empty()) << format.name;
+}
+
+TEST_F(DiagnoseReports, ATerminalShowsHowMuchOfALongLogWasRead) {
+  const std::string path = folder_.file("long.csv");
+  write_log(path, simulate(small_robot(), small_run(kLong_s), 31).log);
+  const std::string command =
+      "'" FAULTLINE_PROGRAM "' diagnose '" + path + "' --model '" + model_ + "' --color never";
+  const ProgramRun run = run_command({"script", "-qec", command, "/dev/null"});
+  EXPECT_EQ(run.status, 0) << run.out;
+  EXPECT_NE(run.out.find("% diagnosing "), std::string::npos) << run.out;
+  const std::size_t hidden = run.out.rfind("\r\x1b[K");
+  ASSERT_NE(hidden, std::string::npos) << run.out;
+  EXPECT_LT(hidden, run.out.find("Log    ")) << "the result is written after the bar was removed";
 }
 
 }  // namespace
