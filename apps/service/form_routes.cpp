@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "apps/service/http.hpp"
 #include "apps/service/service.hpp"
 #include "apps/service/stated_cases.hpp"
+#include "formats/open_log.hpp"
 #include "lib/core/atomic_file.hpp"
 #include "lib/core/enum_named.hpp"
 #include "lib/core/error.hpp"
@@ -37,23 +40,51 @@ std::int64_t number_of(const SentForm& form, const char* field) {
   return whole_number(form.field(field)).value_or(0);
 }
 
-/// One job for each log.
-std::string diagnose_logs(ServiceState& state, const SentForm& form) {
+/// The uploaded files by run: the log first, then the data files that it names.
+std::vector<std::vector<std::string>> files_by_run(const SentForm& form) {
+  std::map<std::string, std::vector<std::string>> beside;
+  std::set<std::string> data;
+  for (const std::string& log : form.files())
+    for (const std::string& path : files_beside(form.incoming().log(log))) {
+      const std::string name = std::filesystem::path(path).filename().string();
+      if (data.insert(name).second) beside[log].push_back(name);
+    }
+  std::vector<std::vector<std::string>> runs;
+  for (const std::string& log : form.files()) {
+    if (data.contains(log)) continue;
+    runs.push_back({log});
+    runs.back().insert(runs.back().end(), beside[log].begin(), beside[log].end());
+  }
+  if (runs.empty()) throw Error(ErrorCode::usage, "log", "each of these files is a data file of another one");
+  return runs;
+}
+
+/// One job for each log, or one for all files if they are of one run.
+std::string diagnose_logs(ServiceState& state, SentForm& form) {
   const std::string model = form.field("model");
   if (!state.folder.has_model(model)) throw Error(ErrorCode::usage, "robot", "choose a robot of the list");
   if (form.files().empty()) throw Error(ErrorCode::usage, "log", "choose at least one log");
-  std::int64_t last = 0;
-  for (const std::string& log : form.files()) {
-    Incoming incoming(state.folder);
-    std::filesystem::rename(form.incoming().log(log), incoming.log(log));
-    last = incoming.add_to(state.queue, {JobKind::diagnose, model, {log}, {}, 0}).id;
+  const auto files = enum_named(form.field("files"), {RunFiles::columns, RunFiles::rows});
+  if (files && form.files().size() > 1) {
+    const JobRequest run{JobKind::diagnose, model, form.files(), {}, 0, *files};
+    return job_address(form.incoming().add_to(state.queue, run).id);
   }
-  return form.files().size() == 1 ? job_address(last) : robot_address(model);
+  const auto runs = files_by_run(form);
+  std::int64_t last = 0;
+  for (const std::vector<std::string>& run : runs) {
+    Incoming incoming(state.folder);
+    for (const std::string& file : run)
+      std::filesystem::rename(form.incoming().log(file), incoming.log(file));
+    last = incoming.add_to(state.queue, {JobKind::diagnose, model, run, {}, 0}).id;
+  }
+  return runs.size() == 1 ? job_address(last) : robot_address(model);
 }
 
 std::string suggest_robot_file(ServiceState& state, SentForm& form) {
   if (form.files().empty()) throw Error(ErrorCode::usage, "log", "choose at least one log");
-  return job_address(form.incoming().add_to(state.queue, {JobKind::suggest, "", form.files(), {}, 0}).id);
+  std::vector<std::string> logs;
+  for (const std::vector<std::string>& run : files_by_run(form)) logs.push_back(run.front());
+  return job_address(form.incoming().add_to(state.queue, {JobKind::suggest, "", logs, {}, 0}).id);
 }
 
 std::string learn_robot(ServiceState& state, const SentForm& form) {
@@ -73,6 +104,12 @@ std::string compare_logs(ServiceState& state, const SentForm& form) {
   const std::string model = form.field("model");
   if (!state.folder.has_model(model)) throw Error(ErrorCode::usage, "robot", "choose a robot of the list");
   const std::int64_t first = number_of(form, "first"), second = number_of(form, "second");
+  for (const std::int64_t id : {first, second}) {
+    const auto job = state.queue.find(id);
+    if (job && job->request.files != RunFiles::single)
+      throw Error(ErrorCode::usage, title_of(*job),
+                  "is a run of several files; make one file of it first (faultline convert)");
+  }
   Incoming incoming(state.folder);
   return job_address(incoming.add_to(state.queue, {JobKind::compare, model, {}, {first, second}, 0}).id);
 }

@@ -38,6 +38,10 @@ JobRequest request_from(const Json& json) {
       received.get<std::int64_t>() > kLatestMoment_s)
     throw Error(ErrorCode::input, "received_s", "is no time");
   request.received_s = received.get<std::int64_t>();
+  const auto files = enum_named(json.value("files", to_string(RunFiles::single)),
+                                {RunFiles::single, RunFiles::columns, RunFiles::rows});
+  if (!files) throw Error(ErrorCode::input, "files", "is unknown");
+  request.files = *files;
   return request;
 }
 
@@ -78,6 +82,18 @@ const char* to_string(JobKind kind) {
   return "";
 }
 
+const char* to_string(RunFiles files) {
+  switch (files) {
+    case RunFiles::single:
+      return "single";
+    case RunFiles::columns:
+      return "columns";
+    case RunFiles::rows:
+      return "rows";
+  }
+  return "";
+}
+
 const char* to_string(JobState state) {
   switch (state) {
     case JobState::waiting:
@@ -98,7 +114,10 @@ std::string title_of(const Job& job) {
   const JobRequest& request = job.request;
   switch (request.kind) {
     case JobKind::diagnose:
-      return request.logs.empty() ? "Damaged job" : request.logs[0];
+      if (request.logs.empty()) return "Damaged job";
+      if (request.files == RunFiles::single) return request.logs[0];
+      return request.logs[0] + " and " +
+             counted(static_cast<long long>(request.logs.size()) - 1, "more file");
     case JobKind::record:
       return fmt::format("Recording of run {}", request.of.at(0));
     case JobKind::suggest:
@@ -116,7 +135,8 @@ void write_request(const std::string& folder, const JobRequest& request) {
                   {"model", request.model},
                   {"logs", request.logs},
                   {"of", request.of},
-                  {"received_s", request.received_s}};
+                  {"received_s", request.received_s},
+                  {"files", to_string(request.files)}};
   write_file(request_path(folder), json_text(json));
 }
 

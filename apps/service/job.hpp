@@ -17,6 +17,14 @@ enum class JobKind {
 };
 const char* to_string(JobKind kind);
 
+/// How the logs of a diagnosis belong together.
+enum class RunFiles {
+  single,   ///< the first file is the run; others are data files that it names
+  columns,  ///< each file has other columns of one run (--join)
+  rows,     ///< each file goes on where the one before ends (--then)
+};
+const char* to_string(RunFiles files);
+
 /// What a user requested.
 struct JobRequest {
   JobKind kind = JobKind::diagnose;
@@ -24,6 +32,7 @@ struct JobRequest {
   std::vector<std::string> logs{};  ///< names of the uploaded files, in the subfolder `logs` of the job
   std::vector<std::int64_t> of{};   ///< the earlier jobs whose logs are used
   std::int64_t received_s = 0;      ///< when, seconds since 1970
+  RunFiles files = RunFiles::single;
 };
 
 enum class JobState { waiting, running, done, failed, cancelled };

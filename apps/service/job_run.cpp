@@ -29,6 +29,24 @@ std::string log_among_jobs(const ServiceFolder& folder, std::int64_t id) {
   return own + "/logs/" + job.request.logs.at(0);
 }
 
+/// The log of a diagnosis with the other files of its run, as the command takes them.
+Words log_words(const JobRequest& request) {
+  Words words{request.logs.at(0)};
+  if (request.files == RunFiles::single) return words;
+  for (std::size_t k = 1; k < request.logs.size(); ++k) {
+    words.push_back(request.files == RunFiles::columns ? "--join" : "--then");
+    words.push_back(request.logs[k]);
+  }
+  return words;
+}
+
+/// The words that diagnose the log of a request with `options`.
+Words diagnose_words(const ServiceFolder& folder, const JobRequest& logs, const Words& options) {
+  Words words{"diagnose", "--model", folder.model_path(logs.model)};
+  for (const Words& more : {log_words(logs), options}) words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 Words learn_words(const ServiceFolder& folder, const Job& job) {
   const std::string own = folder.job_path(job.id) + "/";
   const std::int64_t of = job.request.of.at(0);
@@ -47,15 +65,14 @@ ChildCommand command_of(const ServiceFolder& folder, const Job& job) {
   command.folder = logs_path(folder, job.id);
   switch (request.kind) {
     case JobKind::diagnose:
-      command.words = {"diagnose", request.logs.at(0), "--model", folder.model_path(request.model),
-                       "--json",   own + kReportJson,  "--html",  own + kReportPage};
+      command.words =
+          diagnose_words(folder, request, {"--json", own + kReportJson, "--html", own + kReportPage});
       break;
     case JobKind::record: {
       const std::int64_t of = request.of.at(0);
       command.folder = logs_path(folder, of);
-      command.words = {"diagnose", read_job(folder.job_path(of), of).request.logs.at(0),
-                       "--model",  folder.model_path(request.model),
-                       "--mcap",   own + kRecording};
+      command.words =
+          diagnose_words(folder, read_job(folder.job_path(of), of).request, {"--mcap", own + kRecording});
       break;
     }
     case JobKind::suggest:

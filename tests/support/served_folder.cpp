@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kTries = 3000;  // at 10 ms: half a minute
+constexpr int kTries = 3000;      // at 10 ms: half a minute
+constexpr int kJobTries = 30000;  // at 10 ms: five minutes, for a robot that is learned on a busy machine
 
 void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
 
@@ -126,7 +127,7 @@ std::string Visitor::diagnose(const std::string& log) {
 }
 
 std::string Visitor::result_of(const std::string& job) {
-  for (int i = 0; i < kTries; ++i) {
+  for (int i = 0; i < kJobTries; ++i) {
     const ServiceAnswer state = get(job + "/state.json");
     if (state.status == 200 && nlohmann::json::parse(state.body).at("ended") == true) return get(job).body;
     pause();

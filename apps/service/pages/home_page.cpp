@@ -84,7 +84,11 @@ std::string drop_form(const PageContext& context, const std::vector<std::string>
   }
   return text +
          "<label for=\"logs\">Logs of this robot: drop them here, or choose files</label>\n<input id=\"logs\" "
-         "name=\"log\" type=\"file\" multiple required>\n<button class=\"main\">Diagnose</button>\n"
+         "name=\"log\" type=\"file\" multiple required>\n<label for=\"files\">Several files are</label>\n"
+         "<select id=\"files\" name=\"files\"><option value=\"single\">a run each</option>\n"
+         "<option value=\"columns\">one run: each has other columns</option>\n"
+         "<option value=\"rows\">one run: each goes on where the one before ends</option></select>\n"
+         "<p><button class=\"main\">Diagnose</button></p>\n"
          "<progress max=\"1\" value=\"0\" hidden aria-label=\"Sending\"></progress>\n<p role=\"status\"></p>\n"
          "</form>\n";
 }

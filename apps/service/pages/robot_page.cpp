@@ -21,7 +21,7 @@ std::string run_choice(const char* id, const char* label, const std::vector<Job>
 std::string compare_form(const PageContext& context, const ServedRobot& robot) {
   std::vector<Job> runs;
   for (const Job& run : robot.runs)
-    if (run.outcome.state == JobState::done) runs.push_back(run);
+    if (run.outcome.state == JobState::done && run.request.files == RunFiles::single) runs.push_back(run);
   if (runs.size() < 2) return "";
   std::vector<Job> rest(runs.begin() + 1, runs.end());
   rest.push_back(runs[0]);  // so that two runs are chosen first
