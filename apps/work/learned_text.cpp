@@ -151,7 +151,9 @@ std::string mechanics_text(const Learned& learned) {
 std::string warnings_text(const Learned& learned) {
   std::string text;
   for (const Issue& issue : learned.identification.issues.all())
-    if (issue.severity != Severity::note) text += fmt::format("Warning: {}\n", issue.message);
+    if (issue.severity != Severity::note)
+      text += fmt::format("Warning: {}{}\n", issue.message,
+                          issue.count > 1 ? fmt::format(" ({} times)", issue.count) : "");
   for (const std::string& doubt : learned.model.doubts) text += fmt::format("Doubtful: {}\n", doubt);
   if (!learned.model.doubts.empty()) text += "Each diagnosis with this model reports this.\n";
   return text.empty() ? text : "\n" + text;
