@@ -10,24 +10,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Two runs of one motion, the second with a fault from 2 s when `faulty`.
-std::string write_run(const TemporaryFolder& folder, const std::string& name, std::uint64_t seed,
-                      bool faulty) {
-  SimulationSpec spec = small_run(6.0);
-  spec.motion.points = {{-0.30}, {0.0}, {-0.12}};
-  spec.motion.move_min_s = spec.motion.move_max_s = 1.3;
-  spec.motion.dwell_min_s = spec.motion.dwell_max_s = 0.2;
-  if (faulty)
-    spec.faults = {{FaultKind::free_swinging, 1_joint, 2.0, std::numeric_limits<double>::infinity(), 0, 0}};
-  const std::string path = folder.file(name);
-  write_log(path, simulate(small_robot(), spec, seed).log);
-  return path;
-}
-
 TEST(CompareCommand, ExitStatusDistinguishesEqualFromDifferentRuns) {
   const TemporaryFolder folder;
-  const std::string a = write_run(folder, "a.csv", 1, false), b = write_run(folder, "b.csv", 2, false),
-                    bad = write_run(folder, "bad.csv", 3, true);
+  const std::string a = write_motion(folder, "a.csv", 1, false), b = write_motion(folder, "b.csv", 2, false),
+                    bad = write_motion(folder, "bad.csv", 3, true);
   const ProgramRun same = run_program({"compare", a, b});
   EXPECT_EQ(same.status, 0) << same.out << same.err;
   EXPECT_NE(same.out.find("The runs are the same within noise."), std::string::npos);
@@ -53,7 +39,8 @@ TEST(CompareCommand, ExitStatusDistinguishesEqualFromDifferentRuns) {
 TEST(CompareCommand, ShowsTheResidualsOfBothRunsWithAModel) {
   const BatchWorld world;
   const TemporaryFolder folder;
-  const std::string a = write_run(folder, "a.csv", 1, false), bad = write_run(folder, "bad.csv", 3, true);
+  const std::string a = write_motion(folder, "a.csv", 1, false),
+                    bad = write_motion(folder, "bad.csv", 3, true);
   const ProgramRun run = run_program(
       {"compare", a, bad, "--model", world.model(), "--json", "-", "--html", folder.file("page.html")});
   EXPECT_EQ(run.status, 1) << run.err;
@@ -82,7 +69,7 @@ TEST(CompareCommand, ResidualsOfHealthyRunsOfDifferentMotionsAreTheSame) {
 
 TEST(CompareCommand, RunsThatCannotBeComparedAndWrongOptionsAreRefused) {
   const TemporaryFolder folder;
-  const std::string a = write_run(folder, "a.csv", 1, false);
+  const std::string a = write_motion(folder, "a.csv", 1, false);
   EXPECT_EQ(run_program({"compare", a, folder.file("none.csv")}).status, 3);
   EXPECT_EQ(run_program({"compare", a, folder.write("words.csv", "one,two\nthree,four\n")}).status, 3);
   EXPECT_EQ(run_program({"compare", a}).status, 2);

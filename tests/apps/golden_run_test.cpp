@@ -7,20 +7,6 @@
 namespace faultline {
 namespace {
 
-/// Writes a run of one motion.
-std::string write_motion(const TemporaryFolder& folder, const std::string& name, std::uint64_t seed,
-                         bool faulty, double last_point = -0.12) {
-  SimulationSpec spec = small_run(6.0);
-  spec.motion.points = {{-0.30}, {0.0}, {last_point}};
-  spec.motion.move_min_s = spec.motion.move_max_s = 1.3;
-  spec.motion.dwell_min_s = spec.motion.dwell_max_s = 0.2;
-  if (faulty)
-    spec.faults = {{FaultKind::free_swinging, 1_joint, 2.0, std::numeric_limits<double>::infinity(), 0, 0}};
-  const std::string path = folder.file(name);
-  write_log(path, simulate(small_robot(), spec, seed).log);
-  return path;
-}
-
 TEST(GoldenRun, NewRunsAreHeldAgainstTheRecordedHealthyOnes) {
   const BatchWorld world;
   const TemporaryFolder folder;

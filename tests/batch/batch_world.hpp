@@ -77,4 +77,19 @@ inline std::vector<std::string> differences(const std::string& a, const std::str
   return names;
 }
 
+/// Writes a run of the small robot through three points, with a free joint from 2 s on if `faulty`; runs with
+/// the same `last_point`, m, have the same motion. Returns its path.
+inline std::string write_motion(const TemporaryFolder& folder, const std::string& name, std::uint64_t seed,
+                                bool faulty, double last_point = -0.12) {
+  SimulationSpec spec = small_run(6.0);
+  spec.motion.points = {{-0.30}, {0.0}, {last_point}};
+  spec.motion.move_min_s = spec.motion.move_max_s = 1.3;
+  spec.motion.dwell_min_s = spec.motion.dwell_max_s = 0.2;
+  if (faulty)
+    spec.faults = {{FaultKind::free_swinging, 1_joint, 2.0, std::numeric_limits<double>::infinity(), 0, 0}};
+  const std::string path = folder.file(name);
+  write_log(path, simulate(small_robot(), spec, seed).log);
+  return path;
+}
+
 }  // namespace faultline
