@@ -95,10 +95,13 @@ int run_diagnose(const DiagnoseArguments& arguments, ColorChoice color) {
                                model.robot, arguments.moment, arguments.stop);
   std::optional<ProgressBar> bar(std::in_place, color);
   std::string step = "diagnosing " + arguments.log;
-  const auto log = watched_log(prefetched(open_robot_log(arguments.log, model.robot, arguments.parts)),
-                               [&step, show = bar->callback()](double share) { show(step, share); });
+  const auto log =
+      watched_log(prefetched(open_robot_log(arguments.log, model.robot, arguments.parts)), [&](double share) {
+        if (bar) bar->callback()(step, share);
+      });
   const Diagnosis diagnosis = diagnose(*log, model, files.cases, options);
   step = "writing what was found in " + arguments.log;
+  if (standard_output_is_taken(arguments.reports)) bar.reset();
   const auto tell_diagnosis = [&] {
     bar.reset();
     TimelineOptions timeline;
