@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 
 #include "lib/core/atomic_file.hpp"
+#include "tests/reproduce/quick_reproduction.hpp"
 #include "tests/support/json_schema.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -16,6 +16,7 @@ namespace faultline {
 namespace {
 
 using Json = nlohmann::json;
+using testing::QuickReproduction;
 namespace fs = std::filesystem;
 
 void expect_orders_of_magnitude(const Json& goals) {
@@ -54,19 +55,14 @@ void expect_figures_3_to_8(const fs::path& folder, const std::string& page) {
     EXPECT_TRUE(fs::exists(folder / (*i)[1].str())) << (*i)[1];
 }
 
-TEST(ReproduceCommand, AQuickRunWritesTablesAndFiguresOfTheRightOrdersOfMagnitude) {
-  const TemporaryFolder folder;
-  const fs::path out = folder.path() / "paper";
-  const ProgramRun run = run_program({"reproduce", "--quick", "-o", out.string()});
-  ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_NE(run.out.find("index.md"), std::string::npos) << run.out;
-  const Json json = Json::parse(read_file((out / "index.json").string()));
-  expect_orders_of_magnitude(json["goals"]);
+TEST_F(QuickReproduction, WritesTablesAndFiguresOfTheRightOrdersOfMagnitude) {
+  EXPECT_NE(summary.find("index.md"), std::string::npos) << summary;
+  expect_orders_of_magnitude(index["goals"]);
   for (const char* id :
        {"generator_mse", "table_1", "table_2", "runs_held", "runs_fast", "runs_pd", "dual_held"})
-    expect_full_table(json["tables"], id);
-  expect_figures_3_to_8(out, read_file((out / "index.md").string()));
-  EXPECT_FOLLOWS_SCHEMA({"reproduction-1", (out / "index.json").string()});
+    expect_full_table(index["tables"], id);
+  expect_figures_3_to_8(out(), read_file((out() / "index.md").string()));
+  EXPECT_FOLLOWS_SCHEMA({"reproduction-1", (out() / "index.json").string()});
 }
 
 TEST(ReproduceCommand, BadOptionsAndUnwritableFoldersAreRefused) {

@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "lib/reproduce/classifier/classifier_bench.hpp"
-#include "lib/reproduce/page/reproduction.hpp"
+#include "tests/reproduce/quick_reproduction.hpp"
 
 namespace faultline {
 namespace {
+
+using testing::QuickReproduction;
 
 /// Figure `column` of the row with this controller and recipe (the first such).
 double figure(const ResultTable& table, const std::string& controller, const std::string& recipe,
@@ -58,9 +60,8 @@ void expect_nothing_far_below_the_posterior_under_held(const ResultTable& table)
   EXPECT_GT(figure(table, "held", "all departures", 1), 0.7 * floor);
 }
 
-// One test, because each runs on its own and the study takes seconds.
-TEST(ClassifierStudy, AQuickRunHasTheTablesAndTheirOrdersOfMagnitude) {
-  const StudyResult result = classifier_study({.seeds = 1, .seed = 7, .quick = true});
+TEST_F(QuickReproduction, ClassifiersHaveTheTablesAndTheirOrdersOfMagnitude) {
+  const StudyResult& result = classifier;
   ASSERT_EQ(result.tables.size(), 3u);
   for (const ResultTable& table : result.tables) expect_every_column(table);
   expect_counts_of_the_paper(result.tables[0]);

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <string>
 
-#include "lib/reproduce/generator/generator_measurements.hpp"
+#include "tests/reproduce/quick_reproduction.hpp"
 
 namespace faultline {
 namespace {
+
+using testing::QuickReproduction;
 
 /// Column 0 is the clean test set, 1 and 2 are those with noise, 3 the runs.
 double figure(const ResultTable& table, const std::string& generator, const std::string& controller,
@@ -80,15 +82,14 @@ void expect_identification_pays(const StudyResult& study) {
   EXPECT_TRUE(study.goals[2].reached()) << study.goals[2].measured.mean();
 }
 
-TEST(GeneratorStudy, AQuickStudyShowsTheEffectsOfTheFullStudy) {
-  const StudyResult study = generator_study({.seeds = 1, .seed = 1, .quick = true});
-  ASSERT_EQ(study.tables.size(), 3u);
-  expect_whole(study);
-  expect_orders_of_magnitude(study.tables[0]);
-  expect_noise_floor(study.tables[0]);
-  expect_runs_harder_for_pd_alone(study.tables[0]);
-  expect_outputs_average_to_the_whole(study.tables[1], study.tables[0]);
-  expect_identification_pays(study);
+TEST_F(QuickReproduction, GeneratorsShowTheEffectsOfTheFullStudy) {
+  ASSERT_EQ(generator.tables.size(), 3u);
+  expect_whole(generator);
+  expect_orders_of_magnitude(generator.tables[0]);
+  expect_noise_floor(generator.tables[0]);
+  expect_runs_harder_for_pd_alone(generator.tables[0]);
+  expect_outputs_average_to_the_whole(generator.tables[1], generator.tables[0]);
+  expect_identification_pays(generator);
 }
 
 }  // namespace

@@ -3,19 +3,15 @@
 
 #include <algorithm>
 
-#include "lib/reproduce/page/reproduction.hpp"
 #include "lib/reproduce/runs/run_condition.hpp"
+#include "tests/reproduce/quick_reproduction.hpp"
 
 namespace faultline {
 namespace {
 
-const StudyResult& quick_study() {
-  static const StudyResult study = run_study({.seeds = 1, .quick = true});
-  return study;
-}
+using testing::QuickReproduction;
 
-const ResultTable& table(const std::string& id) {
-  const auto& tables = quick_study().tables;
+const ResultTable& table(const std::vector<ResultTable>& tables, const std::string& id) {
   return *std::find_if(tables.begin(), tables.end(), [&](const ResultTable& t) { return t.id == id; });
 }
 
@@ -27,21 +23,21 @@ double figure(const ResultTable& table, const std::vector<std::string>& labels, 
   return row->figures[at - table.figure_columns.begin()]->mean();
 }
 
-TEST(RunStudy, HasATablePerControllerAndATradeOffPerNoise) {
+TEST_F(QuickReproduction, RunsHaveATablePerControllerAndATradeOffPerNoise) {
   for (const char* id : {"runs_held", "runs_fast", "runs_pd", "dual_held", "trade_off_held_0.01",
                          "trade_off_held_0.1", "trade_off_pd_0.01"})
-    EXPECT_TRUE(std::any_of(quick_study().tables.begin(), quick_study().tables.end(),
-                            [&](const ResultTable& t) { return t.id == id; }))
-        << id;
-  for (const ResultTable& t : quick_study().tables)
+    EXPECT_TRUE(std::any_of(runs.tables.begin(), runs.tables.end(), [&](const ResultTable& t) {
+      return t.id == id;
+    })) << id;
+  for (const ResultTable& t : runs.tables)
     for (const ResultRow& row : t.rows) {
       EXPECT_EQ(row.labels.size(), t.label_columns.size()) << t.id;
       EXPECT_EQ(row.figures.size(), t.figure_columns.size()) << t.id;
     }
 }
 
-TEST(RunStudy, GainsOverThePaperHaveTheRightOrderOfMagnitude) {
-  const ResultTable& held = table("runs_held");
+TEST_F(QuickReproduction, GainsOfRunsOverThePaperHaveTheRightOrderOfMagnitude) {
+  const ResultTable& held = table(runs.tables, "runs_held");
   const std::vector<std::string> paper = {"0.01", "paper's recipe, RBFN", decision_name::kConsecutive};
   const std::vector<std::string> best = {"0.01", detector_name::kBestAverage, decision_name::kLogOdds};
   const std::vector<std::string> filters = {"0.01", detector_name::kFilters, decision_name::kLogOdds};
@@ -57,8 +53,8 @@ TEST(RunStudy, GainsOverThePaperHaveTheRightOrderOfMagnitude) {
   }
 }
 
-TEST(RunStudy, ALargerGHasFewerFalseAlarmsAndMoreDelay) {
-  const ResultTable& trade_off = table("trade_off_held_0.1");
+TEST_F(QuickReproduction, ALargerGHasFewerFalseAlarmsAndMoreDelay) {
+  const ResultTable& trade_off = table(runs.tables, "trade_off_held_0.1");
   const std::string detector = detector_name::kBestMlp;
   EXPECT_GT(figure(trade_off, {detector, "1"}, "false alarms"),
             10.0 * figure(trade_off, {detector, "10"}, "false alarms"));
@@ -66,9 +62,9 @@ TEST(RunStudy, ALargerGHasFewerFalseAlarmsAndMoreDelay) {
             figure(trade_off, {detector, "10"}, "median delay"));
 }
 
-TEST(RunStudy, StatesEachGoalWithItsMeasuredValue) {
-  ASSERT_FALSE(quick_study().goals.empty());
-  for (const Goal& goal : quick_study().goals) EXPECT_EQ(goal.measured.by_seed.size(), 1u) << goal.what;
+TEST_F(QuickReproduction, RunsStateEachGoalWithItsMeasuredValue) {
+  ASSERT_FALSE(runs.goals.empty());
+  for (const Goal& goal : runs.goals) EXPECT_EQ(goal.measured.by_seed.size(), 1u) << goal.what;
 }
 
 }  // namespace
