@@ -242,6 +242,22 @@ bool Hdf5Dataset::is_written(bool channel_major, std::int64_t first) const {
   return true;
 }
 
+namespace {
+
+/// A transfer of so many elements. For one of records the library takes and clears a buffer of 1 MiB, however
+/// few there are; this one is no larger than the elements.
+Hdf5Id transfer_of(hid_t dataset, hid_t memory_type, std::int64_t elements) {
+  Hdf5Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  const Hdf5Id type(H5Dget_type(dataset), H5Tclose);
+  const std::size_t element = std::max(H5Tget_size(type), H5Tget_size(memory_type));
+  const std::size_t usual = H5Pget_buffer(transfer, nullptr, nullptr);
+  if (element > 0 && static_cast<std::size_t>(elements) < usual / element)
+    H5Pset_buffer(transfer, static_cast<std::size_t>(elements) * element, nullptr, nullptr);
+  return transfer;
+}
+
+}  // namespace
+
 bool Hdf5Dataset::read_block(bool channel_major, std::int64_t first, std::int64_t rows, std::int64_t column,
                              std::int64_t columns, double* to) {
   std::vector<hsize_t> start(dimensions_.size(), 0), count(dimensions_.size(), 1);
@@ -252,11 +268,12 @@ bool Hdf5Dataset::read_block(bool channel_major, std::int64_t first, std::int64_
     start[other] = static_cast<hsize_t>(column);
     count[other] = static_cast<hsize_t>(columns);
   }
+  const Hdf5Id transfer = transfer_of(dataset_, memory_type_, shape_.size() > 1 ? rows * columns : rows);
   // A memory space of the same shape lets the library copy whole chunks.
   const Hdf5Id space(H5Dget_space(dataset_), H5Sclose),
       memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
   return H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0 &&
-         H5Dread(dataset_, memory_type_, memory, space, H5P_DEFAULT, to) >= 0;
+         H5Dread(dataset_, memory_type_, memory, space, transfer, to) >= 0;
 }
 
 /// Reads rows, all in one row of chunks if some chunks are missing; true on success.
