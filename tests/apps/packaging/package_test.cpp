@@ -13,14 +13,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A script that stands for cmake as cpack calls it, `cmake -E env NAME=value file PATH` for each of the 300
+/// files of the package: the start of cmake itself takes longer than all else that cpack does.
+std::string quick_environment(const TemporaryFolder& folder) {
+  const std::string path = folder.write("cmake", "#!/bin/sh\nshift 2\nexec env \"$@\"\n");
+  fs::permissions(path, fs::perms::owner_all);
+  return path;
+}
+
 TEST(DebianPackage, HoldsTheProgramAndNamesTheLibrariesItNeeds) {
   SKIP_UNLESS_INSTALLED(run_command({"sh", "-c", "command -v dpkg-shlibdeps"}).status == 0,
                         "dpkg-shlibdeps of dpkg-dev is missing");
   const TemporaryFolder folder;
   const std::string build = fs::path(FAULTLINE_PROGRAM).parent_path().string();
-  const ProgramRun made = run_command({"cpack", "--config", build + "/CPackConfig.cmake", "-G", "DEB", "-B",
-                                       folder.path().string(), "-D", "CPACK_COMPONENTS_ALL=program", "-D",
-                                       "CPACK_DEBIAN_COMPRESSION_TYPE=gzip"});
+  const std::string as_cmake = quick_environment(folder);
+  const ProgramRun made =
+      run_command({"cpack", "--config", build + "/CPackConfig.cmake", "-G", "DEB", "-B",
+                   folder.path().string(), "-D", "CPACK_COMPONENTS_ALL=program", "-D",
+                   "CPACK_DEBIAN_COMPRESSION_TYPE=gzip", "-D", "CMAKE_COMMAND=" + as_cmake});
   ASSERT_EQ(made.status, 0) << made.out << made.err;
   const std::string package = folder.file("faultline_" FAULTLINE_VERSION "-1_amd64.deb");
   ASSERT_TRUE(fs::exists(package)) << made.out;
