@@ -40,9 +40,11 @@ struct OpenReport {
     return {range.at(0), range.at(1)};
   }
 
+  /// Shows every plot that is not drawn yet.
   void scroll_through() {
     page.evaluate(
-        "(async () => { for (const f of document.querySelectorAll('figure')) { f.scrollIntoView();"
+        "(async () => { for (const f of document.querySelectorAll('figure')) {"
+        "if (f.querySelector('.live canvas')) continue; f.scrollIntoView();"
         "await new Promise(r => requestAnimationFrame(() => setTimeout(r, 20))); } })()");
   }
 
