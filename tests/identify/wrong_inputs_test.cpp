@@ -126,7 +126,7 @@ std::string words_of(const Identification& id) {
 TEST(WrongInputs, NeverConvergeToWrongMassesAndMostAreNamed) {
   const ClosedFormScara scara;
   ClosedFormRun run;
-  run.duration_s = 4.0;
+  run.duration_s = 2.5;
   const Log good = simulate_closed_form(scara, run);
   int named = 0, wrong = 0;
   const std::vector<WrongInput> all = wrong_inputs();
