@@ -104,7 +104,7 @@ TEST_F(JsonSchemas, ModelsAndReportsOfLearnFollowTheirSchemas) {
   fs::copy_file(model_ + ".cases.db", model + ".cases.db");
   const ProgramRun run =
       run_program({"learn", bench + "healthy_2.csv", bench + "healthy_3.csv", "--robot", bench + "robot.toml",
-                   "--runs-per-label", "4", "-o", model, "--json", file("learned.json"), "--force"});
+                   "--runs-per-label", "2", "-o", model, "--json", file("learned.json"), "--force"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(read_file(file("learned.json")).find("\"carried_over\""), std::string::npos);
   const std::string edited = file("edited.model");
