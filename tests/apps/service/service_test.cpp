@@ -4,8 +4,11 @@
 
 #include <filesystem>
 
+#include "formats/log_writer.hpp"
 #include "lib/cases/case_file.hpp"
 #include "lib/core/atomic_file.hpp"
+#include "lib/robot/robot_file.hpp"
+#include "tests/learn/small_robot.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/served_folder.hpp"
 
@@ -62,16 +65,23 @@ TEST(Service, AStatementAboutAFaultBecomesACase) {
   EXPECT_EQ(read_case_base(service.file("bench.model.cases.db")).cases().size(), before + 1);
 }
 
+/// A healthy log of a robot that is learned in a second.
+SentFile small_log(const std::string& name, std::uint64_t seed) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file(name);
+  write_log(path, simulate(small_robot(), small_run(20.0), seed).log);
+  return {name, read_file(path)};
+}
+
 TEST(Service, ARobotIsLearnedFromHealthyLogsAndItsSuggestedFile) {
   const ServedFolder service;
   Visitor visitor(service);
-  const ServiceAnswer sent =
-      visitor.post("/jobs", {{"key", visitor.key()}, {"kind", "suggest"}},
-                   {sample_log("bench/healthy_1.csv"), sample_log("bench/healthy_2.csv")});
+  const ServiceAnswer sent = visitor.post("/jobs", {{"key", visitor.key()}, {"kind", "suggest"}},
+                                          {small_log("healthy_1.csv", 21), small_log("healthy_2.csv", 22)});
   ASSERT_EQ(sent.status, 303) << sent.body;
   const std::string suggestion = sent.location;
   EXPECT_TRUE(has(visitor.result_of(suggestion), "axes = ")) << visitor.get(suggestion).body;
-  const std::string robot = read_file(kServedSamples + "bench/robot.toml");
+  const std::string robot = robot_file_text(unknown_small_robot());
   const ServiceAnswer learned = visitor.post(
       "/jobs",
       {{"key", visitor.key()}, {"kind", "learn"}, {"of", "1"}, {"name", "cell-4"}, {"robot", robot}});
