@@ -13,7 +13,7 @@ namespace {
 
 TEST(KilledBatch, ContinuesToTheSameBytesAfterAKillAtAnyTime) {
   const BatchWorld world;
-  world.add_logs(12, 20.0);
+  world.add_logs(12, 10.0);
   const auto start = std::chrono::steady_clock::now();
   run_program(world.command(world.file("whole"), {"--html", "--threads", "2"}));
   const double whole_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
