@@ -49,10 +49,19 @@ class OpenIndex {
  public:
   explicit OpenIndex(const std::vector<BatchRow>& all, const BrowserOptions& options = {},
                      const std::string& state = "")
-      : page(options) {
-    page.open(folder_.write("index.html", page_of(all)) + state);
-    if (options.script) page.evaluate("Promise.resolve(faultlineIndex.whole).then(() => true)");
+      : page(options), address_(folder_.write("index.html", page_of(all)) + state) {
+    page.open(address_);
+    if (options.script) wait_for_rows();
   }
+
+  /// Loads the page anew, as a reader of such a window has it from the beginning.
+  void open_again(int width, int height, bool dark) {
+    page.resize(width, height);
+    page.prefer_dark(dark);
+    page.open(address_);
+    wait_for_rows();
+  }
+  void wait_for_rows() { page.evaluate("Promise.resolve(faultlineIndex.whole).then(() => true)"); }
 
   void set(const char* id, const char* value) {
     page.evaluate(std::string("(() => {const e = document.getElementById('") + id + "'); e.value = '" +
@@ -80,6 +89,9 @@ class OpenIndex {
 
   TemporaryFolder folder_;
   BrowserPage page;
+
+ private:
+  std::string address_;
 };
 
 TEST(BatchIndexInChromium, SortsAndFilters) {
@@ -134,8 +146,9 @@ TEST(BatchIndexInChromium, TheIndexFitsOnAPhoneWithoutHorizontalScrolling) {
   NEEDS_CHROMIUM;
   auto all = rows(60);
   all[0].log = "runs/" + std::string(300, 'w') + ".csv";
+  OpenIndex index(all);
   for (const int width : {320, 390, 768, 1280, 2560}) {
-    OpenIndex index(all, {.width = width, .height = 800});
+    index.open_again(width, 800, false);
     EXPECT_LE(index.page.evaluate("document.documentElement.scrollWidth"), width);
     if (width > 390) continue;
     index.show("#logs");
@@ -318,8 +331,9 @@ TEST(BatchIndexInChromium, ABrowserThatCannotUnpackShowsTheFirstRows) {
 /// What the figures are, from the Web Content Accessibility Guidelines.
 TEST(BatchIndexInChromium, EveryControlHasANameASizeAndContrast) {
   NEEDS_CHROMIUM;
+  OpenIndex index(rows(60));
   for (const bool dark : {false, true}) {
-    OpenIndex index(rows(60), {.width = 390, .height = 6000, .dark = dark});
+    index.open_again(390, 6000, dark);
     index.show_trends();
     index.page.evaluate("document.getElementById('choice').open = true");
     const std::string bad = index.page.evaluate(R"((() => {
