@@ -73,6 +73,24 @@ TEST(ServiceInChromium, ChosenFilesAreSentAndBothVisitorsSeeTheirResult) {
   EXPECT_EQ(one.complaints(), std::vector<std::string>{});
 }
 
+TEST(ServiceInChromium, TwoFilesThatAreOneRunBecomeOneJob) {
+  SKIP_WITHOUT_CHROMIUM();
+  const ServedFolder service;
+  const TemporaryFolder parts;
+  const std::string all = read_file(kServedSamples + "bench/locked_1.csv");
+  const std::size_t header = all.find('\n') + 1, middle = all.find('\n', all.size() / 2) + 1;
+  BrowserPage page;
+  page.open_address(service.address() + "/");
+  page.choose_files("#logs", {parts.write("part1.csv", all.substr(0, middle)),
+                              parts.write("part2.csv", all.substr(0, header) + all.substr(middle))});
+  page.evaluate(
+      "document.querySelector('#files').value = 'rows';"
+      "document.querySelector('form.drop button').click()");
+  EXPECT_TRUE(shows(page, "joint 1 is locked, from 8.440 s on"));
+  EXPECT_EQ(page.evaluate("document.querySelector('h1').textContent"), "part1.csv and 1 more file");
+  EXPECT_EQ(page.complaints(), std::vector<std::string>{});
+}
+
 TEST(ServiceInChromium, ALostConnectionIsSaidAndTheFormCanBeSentAgain) {
   SKIP_WITHOUT_CHROMIUM();
   ServedFolder service;
