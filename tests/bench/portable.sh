@@ -26,8 +26,9 @@ try() { # NAME SUITE MIRROR
     ./faultline learn sample_logs/healthy_*.csv --robot sample_logs/robot.toml -o bench.model >/dev/null 2>&1
     ./faultline diagnose sample_logs/torque_loss_1.csv --model bench.model --html bad.html >bad.txt || [ $? -eq 1 ]
     date +%s.%N >/root/diagnosed
-    mkdir robots && mv bench.model* robots/ && ./faultline serve robots --port 0 2>serve.txt & sleep 3
-    kill %1 2>/dev/null; grep -hE -m1 "^[0-9]+ fault" /root/faultline-*/bad.txt; head -1 /root/faultline-*/serve.txt'
+    mkdir robots && mv bench.model* robots/
+    ./faultline serve robots --port 0 2>serve.txt & sleep 3
+    kill $!; grep -hE -m1 "^[0-9]+ fault" /root/faultline-*/bad.txt; head -1 /root/faultline-*/serve.txt'
   printf '%s, glibc %s: from unpacking to the first diagnosis %.1f s\n' "$1" "$glibc" \
     "$(echo "$(cat "$root/root/diagnosed") - $(cat "$root/root/unpacked")" | bc)"
   rm -rf "$root"
