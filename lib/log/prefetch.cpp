@@ -15,18 +15,29 @@ namespace {
 
 constexpr int kSegmentsAhead = 4;
 
+/// What is known of a log with the segment that was read last.
+struct KnownOfLog {
+  LogIdentity identity{};
+  double share = std::numeric_limits<double>::quiet_NaN();  ///< read
+
+  void take_from(const LogSource& source) {
+    identity = source.identity();
+    share = source.share_read();
+  }
+};
+
 /// A ring of segments between the reading thread and the caller of next().
 class PrefetchSource : public LogSource {
  public:
-  explicit PrefetchSource(std::unique_ptr<LogSource> source)
-      : source_(std::move(source)), identity_(source_->identity()) {}
+  explicit PrefetchSource(std::unique_ptr<LogSource> source) : source_(std::move(source)) {
+    known_.take_from(*source_);
+  }
   ~PrefetchSource() override { stop(); }
 
   bool next(Log& segment) override {
     if (!reader_.joinable() && !ended_ && !start_reader()) {
       const bool got = source_->next(segment);
-      identity_ = source_->identity();
-      share_ = source_->share_read();
+      known_.take_from(*source_);
       return got;
     }
     std::unique_lock lock(mutex_);
@@ -34,8 +45,7 @@ class PrefetchSource : public LogSource {
     if (ready_ > 0) {
       const auto place = static_cast<std::size_t>(taken_ % kSegmentsAhead);
       std::swap(segment, ring_[place].segment);
-      std::swap(identity_, ring_[place].identity);
-      share_ = ring_[place].share;
+      std::swap(known_, ring_[place].known);
       ++taken_;
       --ready_;
       changed_.notify_all();
@@ -43,8 +53,7 @@ class PrefetchSource : public LogSource {
     }
     lock.unlock();
     if (reader_.joinable()) reader_.join();
-    identity_ = source_->identity();
-    share_ = source_->share_read();
+    known_.take_from(*source_);
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
     return false;
   }
@@ -52,23 +61,21 @@ class PrefetchSource : public LogSource {
   void rewind() override {
     stop();
     source_->rewind();
-    identity_ = source_->identity();
-    share_ = source_->share_read();
+    known_.take_from(*source_);
     taken_ = ready_ = 0;
     ended_ = stopping_ = false;
     failure_ = nullptr;
   }
 
-  const LogIdentity& identity() const override { return identity_; }
+  const LogIdentity& identity() const override { return known_.identity; }
   const Issues& issues() const override { return source_->issues(); }
-  double share_read() const override { return share_; }
+  double share_read() const override { return known_.share; }
 
  private:
-  /// A segment that was read and not handed out, and what was known of the log with it.
+  /// A segment that was read and not handed out.
   struct Ahead {
     Log segment;
-    LogIdentity identity;
-    double share = 0.0;  ///< read
+    KnownOfLog known;
   };
 
   /// Returns false if no thread can be started.
@@ -91,10 +98,7 @@ class PrefetchSource : public LogSource {
         const auto place = static_cast<std::size_t>(number % kSegmentsAhead);
         Ahead& ahead = ring_[place];
         const bool got = source_->next(ahead.segment);
-        if (got) {
-          ahead.identity = source_->identity();
-          ahead.share = source_->share_read();
-        }
+        if (got) ahead.known.take_from(*source_);
         lock.lock();
         if (!got) break;
         ++ready_;
@@ -118,8 +122,7 @@ class PrefetchSource : public LogSource {
   }
 
   std::unique_ptr<LogSource> source_;
-  LogIdentity identity_;  ///< with the segment handed out last; the reader is ahead of it
-  double share_ = std::numeric_limits<double>::quiet_NaN();  ///< the same
+  KnownOfLog known_;  ///< with the segment handed out last; the reader is ahead of it
   std::thread reader_;
   std::mutex mutex_;
   std::condition_variable changed_;

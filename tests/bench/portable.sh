@@ -28,7 +28,7 @@ try() { # NAME SUITE MIRROR
     date +%s.%N >/root/diagnosed
     mkdir robots && mv bench.model* robots/
     ./faultline serve robots --port 0 2>serve.txt & sleep 3
-    kill $!; grep -hE -m1 "^[0-9]+ fault" /root/faultline-*/bad.txt; head -1 /root/faultline-*/serve.txt'
+    kill $!; grep -hE -m1 "^[0-9]+ fault" bad.txt; head -1 serve.txt'
   printf '%s, glibc %s: from unpacking to the first diagnosis %.1f s\n' "$1" "$glibc" \
     "$(echo "$(cat "$root/root/diagnosed") - $(cat "$root/root/unpacked")" | bc)"
   rm -rf "$root"
